@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the robot sees around itself: the observation of every filter in this package.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "coarse_map_nav/data/geometry.hpp"
+
+namespace coarse_map_nav {
+
+/// The sensor that an observation comes from; values as in msg/LocalOccupancy.
+enum class ObservationSource : std::uint8_t { kUnknown = 0, kLidar, kDepth, kRgb, kFused };
+
+/// A square grid of occupancy about the robot, axes as base_link: x forward, y left.
+///
+/// Cell (ix, iy) covers x in [(ix - size/2) r, (ix + 1 - size/2) r) and y likewise: the robot
+/// stands in the middle of the square. Stored with ix running fastest.
+/// `occupancy` is P(occupied) in [0, 1]; `confidence` >= 0 weighs it, 0 where nothing is known.
+struct LocalOccupancy {
+  double stamp_s = 0.0;     ///< time of the newest data in it
+  double resolution = 0.0;  ///< [m/cell]
+  int size = 0;             ///< cells per side
+  std::vector<float> occupancy;
+  std::vector<float> confidence;
+  ObservationSource source = ObservationSource::kUnknown;
+
+  LocalOccupancy() = default;
+  /// Nothing known anywhere: occupancy 0.5, confidence 0.
+  LocalOccupancy(int size_cells, double resolution_m)
+      : resolution{resolution_m},
+        size{size_cells},
+        occupancy(cell_count(), 0.5F),
+        confidence(cell_count(), 0.0F) {}
+
+  std::size_t cell_count() const {
+    return static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  }
+  std::size_t index_of(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(size) +
+           static_cast<std::size_t>(ix);
+  }
+  double side_m() const { return size * resolution; }
+};
+
+}  // namespace coarse_map_nav

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// May the robot move forward?
+#pragma once
+
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
+namespace coarse_map_nav {
+
+struct ObstacleGuardParams {
+  double occupied_share = 0.25;  ///< Robb: "more than 25 % occupied"
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("occupied_share", self.occupied_share, Between{0.0, 1.0},
+          "[-] the way ahead is blocked when more than this share of the front block is occupied");
+  }
+};
+
+/// The share of the front middle block, a third of the square each way, that is occupied.
+///
+/// Cells about which nothing is known do not count as occupied: a LiDAR that does not look ahead
+/// cannot guard, and the caller learns that from its field of view, not from a robot that stands
+/// still. Occupied beyond a hit does count (Robb: everything beyond is occupied).
+double occupied_share_ahead(const LocalOccupancy& seen);
+
+/// Robb: the front block is more than `occupied_share` occupied.
+bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params);
+
+}  // namespace coarse_map_nav

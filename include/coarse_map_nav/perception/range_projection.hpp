@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Ranges of a planar sensor -> occupancy around the robot.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
+namespace coarse_map_nav {
+
+/// One sweep of a planar LiDAR, as in sensor_msgs/LaserScan.
+///
+/// +inf, or anything above `range_max_m`, is a beam that met nothing (REP-117); NaN, negative and
+/// too short ranges are no measurement at all.
+struct RangeScan {
+  double stamp_s = 0.0;
+  double angle_min_rad = 0.0;        ///< of the first beam, in the sensor's frame
+  double angle_increment_rad = 0.0;  ///< between neighbours; negative for a clockwise sensor
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+  std::vector<float> ranges_m;
+  Pose2 T_robot_sensor;
+};
+
+struct ProjectionParams {
+  int size = 128;        ///< CMN: 128 x 128 ...
+  double side_m = 1.28;  ///< ... over 1.28 m
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("size", self.size, Between{3, 1024}, "[cells] side of the local occupancy grid");
+    visit("side_m", self.side_m, Between{0.1, 50.0}, "[m] side of the local occupancy grid");
+  }
+};
+
+/// What was wrong with the beams of a scan.
+struct BeamCount {
+  std::size_t used = 0;
+  std::size_t unusable = 0;  ///< NaN, negative, -inf or below range_min
+};
+
+/// Turns scans into local occupancy (Robb, "LiDAR local occupancy").
+///
+/// A cell is free (0) up to the range of the beam through its middle and occupied (1) from there on
+/// for one cell's diagonal, both with confidence 1. What lies beyond is unseen: confidence 0 and
+/// occupancy 1, Robb's "everything beyond is occupied"; who trusts only what was seen looks at the
+/// confidence. Bearings outside the field of view and unusable beams leave 0.5 with confidence 0.
+/// Each cell's bearing and distance are tabulated for the sensor at hand, so that a scan costs one
+/// look-up a cell.
+class RangeProjector {
+ public:
+  explicit RangeProjector(const ProjectionParams& params) : params_{params} {}
+
+  LocalOccupancy project(const RangeScan& scan, BeamCount* count = nullptr);
+
+ private:
+  /// A cell as the sensor sees it.
+  struct Bearing {
+    std::int32_t beam;  ///< the nearest beam, -1 outside the field of view
+    float range_m;      ///< distance of the cell's middle from the sensor
+  };
+  void tabulate(const RangeScan& scan);
+
+  ProjectionParams params_;
+  RangeScan layout_;  ///< what bearings_ was made for; its ranges stay empty
+  std::size_t layout_beams_ = 0;
+  std::vector<Bearing> bearings_;
+};
+
+}  // namespace coarse_map_nav

@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Where to next: the seam between the planners of the papers and ours.
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+
+#include "coarse_map_nav/data/action.hpp"
+#include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/data/coarse_map.hpp"
+
+namespace coarse_map_nav {
+
+class CostToGo;
+
+/// All that a policy may look at.
+struct Situation {
+  const CoarseMap& map;
+  const Belief& belief;
+  const CostToGo& cost_to_go;  ///< towards the goal, of the whole map
+  Estimate estimate;
+  double confidence = 0.0;     ///< probability within 1 m of the estimate, at its heading
+  bool is_converged = false;
+  bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward
+};
+
+/// Chooses one action at a time. May remember what it did; `rng` is its only source of chance.
+class Policy {
+ public:
+  virtual ~Policy() = default;
+  virtual ActionType choose(const Situation& situation, std::mt19937_64& rng) = 0;
+  /// Forgets the past: a new goal, a new place.
+  virtual void reset() {}
+};
+
+struct PlanningParams;
+/// "random", "heuristic_tree" (CMN) or "path" (Robb), by `params.policy`.
+std::unique_ptr<Policy> make_policy(const PlanningParams& params);
+
+}  // namespace coarse_map_nav
