@@ -13,6 +13,9 @@ namespace coarse_map_nav {
 /// CMN's action space and the order to stay; values as in msg/DiscreteAction.
 enum class ActionType : std::uint8_t { kStop = 0, kMoveForward, kTurnLeft, kTurnRight };
 
+/// CMN sec. V-A: "move_forward advances the robot by 0.15 m".
+constexpr double kCmnStep_m = 0.15;
+
 struct Action {
   ActionType type = ActionType::kStop;
   double distance_m = 0.0;  ///< of kMoveForward

@@ -1,0 +1,116 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The discrete Bayes filter on the drawing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/localization/measurement_model.hpp"
+#include "coarse_map_nav/localization/motion_model.hpp"
+#include "coarse_map_nav/localization/neighbourhood.hpp"
+
+namespace coarse_map_nav {
+
+struct LocalizationParams {
+  MotionModelParams motion;
+  MeasurementModelParams measurement;
+  double converged_confidence = 0.5;
+  double contradiction_evidence = 1e-6;
+  int reopen_after = 3;
+  double reopen_weight = 0.5;
+  std::uint32_t seed = 1;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit.group("motion", self.motion);
+    visit.group("measurement", self.measurement);
+    visit("converged_confidence", self.converged_confidence, Between{0.0, 1.0},
+          "[-] converged when so much of the belief is within 1 m of the estimate, at its heading");
+    visit("contradiction_evidence", self.contradiction_evidence, Between{0.0, 1.0},
+          "[-] an observation of a mean likelihood below this contradicts the map");
+    visit("reopen_after", self.reopen_after, Between{1, 1000},
+          "[observations] contradictions in a row after which the belief is re-opened");
+    visit("reopen_weight", self.reopen_weight, Between{0.0, 1.0},
+          "[-] share of a uniform belief mixed in then");
+    visit("seed", self.seed, Between{0, 4294967295.0},
+          "seed of the noisy transition and of the choice between equal estimates");
+  }
+};
+
+/// What one look at the world did to the belief.
+enum class Correction { kApplied, kContradiction, kReopened };
+
+/// Belief over four headings x all cells: predict (CMN eq. 1), correct (CMN eq. 2 and 3).
+///
+/// The heading of a layer is that of the odometry axis nearest to the robot, as it would lie on the
+/// drawing: the robot may stand at any yaw, and what is left over to the axis turns the observation.
+/// Mass never enters an occupied cell; mass that faces one stays. After any sequence of calls the
+/// belief sums to 1. One step costs a single pass over the belief.
+class BeliefFilter {
+ public:
+  BeliefFilter(CoarseMap map, const LocalizationParams& params);
+
+  /// Starts over, anywhere: uniform over the free cells of all layers.
+  void reset();
+  /// Starts over near a pose of the map frame: Gaussian in position, weighted by |yaw error| over
+  /// the headings. False, and nothing changed, when no free cell is near.
+  bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad);
+
+  /// Folds in one observation and the odometry since the one before. The first call after a reset
+  /// only corrects.
+  Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot);
+  /// The odometry frame jumped (time went back, another bag): the next update only corrects.
+  void forget_odometry() { T_odom_last_.reset(); }
+
+  // The two halves of update().
+  void predict(const Displacement& driven);
+  Correction correct(const LocalOccupancy& seen, double residual_yaw_rad = 0.0);
+
+  const CoarseMap& map() const { return map_; }
+  const Belief& belief() const { return belief_; }
+  /// The most probable state; equals are told apart by a seeded draw, and the one chosen is kept
+  /// while it is still among the best (CMN sec. IV-D: "ties are broken randomly").
+  const Estimate& estimate() const { return estimate_; }
+  /// The probability within 1 m of the estimate, at its heading.
+  double confidence() const { return confidence_; }
+  bool is_converged() const { return confidence_ >= params_.converged_confidence; }
+  std::uint64_t contradictions() const { return contradictions_; }
+
+ private:
+  /// A move by a share of a cell, in [0, 1], towards heading + quarter_turn.
+  struct Shift {
+    int quarter_turn;
+    double share;
+  };
+  static std::vector<Shift> shifts(const std::vector<CellStep>& steps);
+  /// Moves every layer and, where a likelihood is given, weighs it, then normalises. The layers have
+  /// been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where it
+  /// does not exceed `least` the belief stays as it was.
+  double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
+  Correction settle(double evidence);
+  void summarise();
+  CoarseMap map_;
+  LocalizationParams params_;
+  std::unique_ptr<MotionModel> motion_;
+  std::unique_ptr<MeasurementModel> measurement_;
+  std::vector<std::uint16_t> codes_;
+  std::mt19937_64 rng_;
+  Belief belief_;
+  Belief scratch_;
+  std::optional<Pose2> T_odom_last_;
+  Estimate estimate_;
+  double confidence_ = 0.0;
+  int contradictions_in_a_row_ = 0;
+  std::uint64_t contradictions_ = 0;
+};
+
+}  // namespace coarse_map_nav

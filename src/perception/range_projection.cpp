@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/perception/range_projection.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace coarse_map_nav {
+namespace {
+
+/// The beam nearest to a bearing in the sensor's frame; -1 when none is within half an increment.
+std::int32_t nearest_beam(const RangeScan& scan, std::size_t beams, double bearing_rad) {
+  const double step = std::abs(scan.angle_increment_rad);
+  if (!(step > 0.0) || !std::isfinite(step) || !std::isfinite(scan.angle_min_rad)) {
+    return -1;
+  }
+  const double sense = scan.angle_increment_rad > 0.0 ? 1.0 : -1.0;
+  double past_first = std::fmod(sense * (bearing_rad - scan.angle_min_rad), 2.0 * kPi);
+  past_first += past_first < 0.0 ? 2.0 * kPi : 0.0;
+  const auto beam = static_cast<std::int64_t>(std::llround(past_first / step));
+  if (beam < static_cast<std::int64_t>(beams)) {
+    return static_cast<std::int32_t>(beam);
+  }
+  return 2.0 * kPi - past_first <= 0.5 * step ? 0 : -1;
+}
+
+bool is_usable(float range_m, const RangeScan& scan) {
+  return range_m >= static_cast<float>(scan.range_min_m) && range_m >= 0.0F;
+}
+
+}  // namespace
+
+void RangeProjector::tabulate(const RangeScan& scan) {
+  layout_ = scan;
+  layout_.ranges_m.clear();
+  layout_beams_ = scan.ranges_m.size();
+  const double cell_m = params_.side_m / params_.size;
+  const Pose2 T_sensor_robot = inverse(scan.T_robot_sensor);
+  bearings_.clear();
+  for (int iy = 0; iy < params_.size; ++iy) {
+    for (int ix = 0; ix < params_.size; ++ix) {
+      const Point2 p_robot{(ix + 0.5 - 0.5 * params_.size) * cell_m,
+                           (iy + 0.5 - 0.5 * params_.size) * cell_m};
+      const Point2 p = T_sensor_robot * p_robot;
+      bearings_.push_back({nearest_beam(scan, layout_beams_, std::atan2(p.y, p.x)),
+                           static_cast<float>(norm(p))});
+    }
+  }
+}
+
+LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) {
+  const bool same_layout = layout_beams_ == scan.ranges_m.size() && !bearings_.empty() &&
+                           layout_.angle_min_rad == scan.angle_min_rad &&
+                           layout_.angle_increment_rad == scan.angle_increment_rad &&
+                           layout_.T_robot_sensor.x == scan.T_robot_sensor.x &&
+                           layout_.T_robot_sensor.y == scan.T_robot_sensor.y &&
+                           layout_.T_robot_sensor.yaw == scan.T_robot_sensor.yaw;
+  if (!same_layout) {
+    tabulate(scan);
+  }
+
+  // Per beam: free below `hit_m`, occupied up to `behind_m`, unseen beyond; NaN compares false.
+  struct Beam {
+    float hit_m;
+    float behind_m;
+  };
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto range_max_m = static_cast<float>(scan.range_max_m);
+  const auto diagonal_m = static_cast<float>(std::sqrt(2.0) * params_.side_m / params_.size);
+  std::vector<Beam> beams;
+  beams.reserve(scan.ranges_m.size());
+  BeamCount seen;
+  for (const float range_m : scan.ranges_m) {
+    if (!is_usable(range_m, scan)) {
+      beams.push_back({kNan, kNan});
+      ++seen.unusable;
+    } else if (range_m > range_max_m) {
+      beams.push_back({range_max_m, -kInfinity});
+      ++seen.used;
+    } else {
+      beams.push_back({range_m, range_m + diagonal_m});
+      ++seen.used;
+    }
+  }
+  if (count != nullptr) {
+    *count = seen;
+  }
+
+  LocalOccupancy local{params_.size, params_.side_m / params_.size};
+  local.stamp_s = scan.stamp_s;
+  local.source = ObservationSource::kLidar;
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    if (bearings_[i].beam < 0) {
+      continue;
+    }
+    const Beam& beam = beams[static_cast<std::size_t>(bearings_[i].beam)];
+    const float range_m = bearings_[i].range_m;
+    if (range_m < beam.hit_m) {
+      local.occupancy[i] = 0.0F;
+      local.confidence[i] = 1.0F;
+    } else if (range_m <= beam.behind_m) {
+      local.occupancy[i] = 1.0F;
+      local.confidence[i] = 1.0F;
+    } else if (range_m > beam.behind_m && beam.behind_m > 0.0F) {
+      local.occupancy[i] = 1.0F;
+    }
+  }
+  return local;
+}
+
+}  // namespace coarse_map_nav
