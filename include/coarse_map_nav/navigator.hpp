@@ -11,7 +11,7 @@
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// One decision of the robot from one look at the world. The nodes do the same over topics.
 class Navigator {
@@ -43,4 +43,4 @@ class Navigator {
   LocalOccupancy seen_;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

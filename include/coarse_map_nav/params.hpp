@@ -12,7 +12,7 @@
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct PerceptionParams {
   std::string source = "lidar";
@@ -40,4 +40,4 @@ struct NavigatorParams {
   }
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

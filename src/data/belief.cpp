@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace coarse_map_nav {
+namespace cmn {
 
 Belief Belief::uniform(const CoarseMap& map) {
   Belief belief{map.width(), map.height()};
@@ -75,4 +75,4 @@ double mass_near(const Belief& belief, const Estimate& estimate, double radius_c
   return mass;
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -9,7 +9,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-namespace coarse_map_nav {
+namespace cmn {
 namespace {
 
 std::string text_of(double value) {
@@ -236,4 +236,4 @@ ParamTree read_param_file(const std::string& path) {
   return tree;
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -9,7 +9,7 @@
 
 #include "coarse_map_nav/data/random.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 namespace {
 
 /// One layer's worth of a filter step: out = L * moved(in), over the padded layout.
@@ -244,4 +244,4 @@ void BeliefFilter::summarise() {
   confidence_ = mass_near(belief_, estimate_, 1.0 / map_.resolution());
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

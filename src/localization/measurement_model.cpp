@@ -11,7 +11,7 @@
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 namespace {
 
 double power(double base, double exponent) {
@@ -178,4 +178,4 @@ std::unique_ptr<MeasurementModel> make_measurement_model(const MeasurementModelP
   return std::make_unique<OverlapModel>(map, params);
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -8,7 +8,7 @@
 
 #include "coarse_map_nav/data/random.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 std::vector<CellStep> NoisyMotionModel::steps(const Displacement& driven,
                                               std::mt19937_64& rng) const {
@@ -50,4 +50,4 @@ std::unique_ptr<MotionModel> make_motion_model(const MotionModelParams& params, 
   return std::make_unique<ScaledMotionModel>(params.scale * resolution);
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

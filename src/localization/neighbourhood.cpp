@@ -4,7 +4,7 @@
 
 #include "coarse_map_nav/data/belief.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 std::vector<std::uint16_t> neighbourhood_codes(const CoarseMap& map) {
   const Belief layout{map.width(), map.height()};
@@ -23,4 +23,4 @@ std::vector<std::uint16_t> neighbourhood_codes(const CoarseMap& map) {
   return codes;
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

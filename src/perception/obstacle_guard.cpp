@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 double occupied_share_ahead(const LocalOccupancy& seen) {
   const int third = seen.size / 3;
@@ -21,4 +21,4 @@ bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& par
   return occupied_share_ahead(seen) > params.occupied_share;
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace coarse_map_nav {
+namespace cmn {
 namespace {
 
 /// The beam nearest to a bearing in the sensor's frame; -1 when none is within half an increment.
@@ -109,4 +109,4 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
   return local;
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

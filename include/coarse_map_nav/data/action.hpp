@@ -8,7 +8,7 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// CMN's action space and the order to stay; values as in msg/DiscreteAction.
 enum class ActionType : std::uint8_t { kStop = 0, kMoveForward, kTurnLeft, kTurnRight };
@@ -35,4 +35,4 @@ struct MotionResult {
   Pose2 T_start_end;  ///< what odometry says was driven, in the frame of the start pose
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

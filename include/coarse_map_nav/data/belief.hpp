@@ -12,7 +12,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/grid.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// The most probable state.
 struct Estimate {
@@ -86,4 +86,4 @@ double entropy(const Belief& belief);
 /// The probability of the estimate's heading within `radius_cells` of its cell.
 double mass_near(const Belief& belief, const Estimate& estimate, double radius_cells);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

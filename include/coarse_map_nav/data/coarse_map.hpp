@@ -12,7 +12,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/grid.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// A coarse occupancy grid: a downsampled or hand-drawn map of a building (CMN sec. IV-A).
 ///
@@ -58,4 +58,4 @@ class CoarseMap {
   std::size_t free_count_ = 0;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

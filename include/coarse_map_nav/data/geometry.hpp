@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace coarse_map_nav {
+namespace cmn {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -122,4 +122,4 @@ inline double residual_yaw(const Pose2& T_odom_robot) {
   return wrap_angle(T_odom_robot.yaw - nearest_quarter(T_odom_robot.yaw) * kPi / 2.0);
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

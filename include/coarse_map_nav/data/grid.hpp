@@ -10,7 +10,7 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// width x height values, row by row from the lowest row up, as in nav_msgs/OccupancyGrid.
 template <class T>
@@ -59,4 +59,4 @@ class Grid {
   std::vector<T> values_;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

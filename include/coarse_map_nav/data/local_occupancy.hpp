@@ -10,7 +10,7 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// The sensor that an observation comes from; values as in msg/LocalOccupancy.
 enum class ObservationSource : std::uint8_t { kUnknown = 0, kLidar, kDepth, kRgb, kFused };
@@ -46,4 +46,4 @@ struct LocalOccupancy {
   double side_m() const { return size * resolution; }
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

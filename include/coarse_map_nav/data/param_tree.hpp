@@ -24,7 +24,7 @@
 #include <variant>
 #include <vector>
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// lowest <= value <= highest.
 struct Between {
@@ -124,4 +124,4 @@ std::vector<ParamDoc> list_params(const Params& params) {
 /// Reads a YAML file of nested maps and scalars. Throws std::runtime_error, naming file and line.
 ParamTree read_param_file(const std::string& path);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -11,7 +11,7 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// Uniform on [0, 1).
 inline double draw_uniform(std::mt19937_64& rng) {
@@ -27,4 +27,4 @@ inline double draw_normal(std::mt19937_64& rng) {
   return radius * std::cos(2.0 * kPi * draw_uniform(rng));
 }
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

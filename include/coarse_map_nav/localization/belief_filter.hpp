@@ -19,7 +19,7 @@
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct LocalizationParams {
   MotionModelParams motion;
@@ -113,4 +113,4 @@ class BeliefFilter {
   std::uint64_t contradictions_ = 0;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -13,7 +13,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct MeasurementModelParams {
   std::string type = "overlap";
@@ -80,4 +80,4 @@ class OverlapModel : public MeasurementModel {
 std::unique_ptr<MeasurementModel> make_measurement_model(const MeasurementModelParams& params,
                                                          const CoarseMap& map);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -13,7 +13,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct MotionModelParams {
   std::string type = "noisy";
@@ -72,4 +72,4 @@ class ScaledMotionModel : public MotionModel {
 /// `resolution`: the drawing's nominal one [m/cell].
 std::unique_ptr<MotionModel> make_motion_model(const MotionModelParams& params, double resolution);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

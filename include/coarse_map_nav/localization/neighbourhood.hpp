@@ -11,7 +11,7 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/geometry.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// A value for each of the 512 neighbourhoods a cell can have.
 using NeighbourhoodTable = std::array<double, 512>;
@@ -26,4 +26,4 @@ constexpr unsigned neighbour_bit(Cell offset) {
 /// Laid out like the layers of a Belief, border included, whose cells carry 511 (all occupied).
 std::vector<std::uint16_t> neighbourhood_codes(const CoarseMap& map);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

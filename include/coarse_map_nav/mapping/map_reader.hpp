@@ -8,7 +8,7 @@
 
 #include "coarse_map_nav/data/coarse_map.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// Reads a coarse map, by the ending of its name:
 ///   .yaml      map_server (image, resolution, origin, negate, occupied_thresh, free_thresh, mode)
@@ -19,4 +19,4 @@ namespace coarse_map_nav {
 /// with it (cell, key) and the remedy; a map without any free cell is such an error.
 CoarseMap read_map(const std::string& path, double resolution = 0.4);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

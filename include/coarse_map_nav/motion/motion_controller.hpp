@@ -11,7 +11,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// A pose in the odometry frame and when it held.
 struct OdometrySample {
@@ -88,4 +88,4 @@ class MotionController {
   std::optional<Active> active_;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

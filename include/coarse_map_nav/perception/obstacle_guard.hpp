@@ -7,7 +7,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct ObstacleGuardParams {
   double occupied_share = 0.25;  ///< Robb: "more than 25 % occupied"
@@ -28,4 +28,4 @@ double occupied_share_ahead(const LocalOccupancy& seen);
 /// Robb: the front block is more than `occupied_share` occupied.
 bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

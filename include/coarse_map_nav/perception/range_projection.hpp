@@ -12,7 +12,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// One sweep of a planar LiDAR, as in sensor_msgs/LaserScan.
 ///
@@ -72,4 +72,4 @@ class RangeProjector {
   std::vector<Bearing> bearings_;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -10,7 +10,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/grid.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 /// Dijkstra from the goal over the free cells, four neighbours each: V(c) in cells, infinite where
 /// there is no way. Robb's robot moves along the axes only, hence no diagonals.
@@ -31,4 +31,4 @@ class CostToGo {
   Grid<float> cost_;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

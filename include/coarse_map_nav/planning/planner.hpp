@@ -18,7 +18,7 @@
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 struct PlanningParams {
   std::string policy = "path";
@@ -86,4 +86,4 @@ class Planner {
   int actions_ = 0;
 };
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

@@ -12,7 +12,7 @@
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 
 class CostToGo;
 
@@ -40,4 +40,4 @@ struct PlanningParams;
 /// "random", "heuristic_tree" (CMN) or "path" (Robb), by `params.policy`.
 std::unique_ptr<Policy> make_policy(const PlanningParams& params);
 
-}  // namespace coarse_map_nav
+}  // namespace cmn

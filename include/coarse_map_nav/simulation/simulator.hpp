@@ -12,7 +12,7 @@
 #include "coarse_map_nav/motion/motion_controller.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 
-namespace coarse_map_nav {
+namespace cmn {
 // Owner of this file: simulation. See the components it composes: world.hpp, robot_model.hpp,
 // range_sensor.hpp.
-}  // namespace coarse_map_nav
+}  // namespace cmn
