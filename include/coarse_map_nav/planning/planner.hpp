@@ -4,13 +4,6 @@
 /// From belief and goal to the next action, and whether the journey is over.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "coarse_map_nav/data/action.hpp"
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
@@ -18,37 +11,61 @@
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
 
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
 namespace cmn {
 
 struct PlanningParams {
   std::string policy = "path";
-  double step_m = 0.15;              ///< CMN: move_forward advances by 0.15 m
-  int tree_depth = 2;                ///< CMN's released parameters
-  double goal_tolerance_m = 0.4;     ///< CMN's released parameters: success radius
+  double step_m = kCmnStep_m;
+  int tree_depth = 2;             ///< CMN's released parameters
+  bool tree_diagonals = false;    ///< see HeuristicTree
+  double explore_p_turn = 0.1;    ///< a turn every 1.5 m of CMN's steps
+  double goal_tolerance_m = 0.4;  ///< CMN's released parameters: success radius
   double reached_confidence = 0.5;
-  int max_actions = 500;             ///< CMN: horizon
+  int max_actions = 500;  ///< CMN: horizon
   std::uint32_t seed = 1;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path"}}, "how the next action is chosen: CMN's baseline, CMN, Robb");
+    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path"}},
+          "how the next action is chosen: CMN's baseline, CMN, Robb");
     visit("step_m", self.step_m, Between{0.02, 2.0}, "[m] length of a forward action");
-    visit("tree_depth", self.tree_depth, Between{1, 6}, "[actions] look-ahead of heuristic_tree");
-    visit("goal_tolerance_m", self.goal_tolerance_m, Between{0.05, 5.0}, "[m] reached when the estimate is this close to the goal");
-    visit("reached_confidence", self.reached_confidence, Between{0.0, 1.0}, "[-] and the belief within 1 m of the estimate is at least this");
+    visit("tree_depth", self.tree_depth, Between{2, 6}, "[actions] look-ahead of heuristic_tree");
+    visit("tree_diagonals", self.tree_diagonals, Anything{},
+          "heuristic_tree: the path to the goal may go along diagonals");
+    visit("explore_p_turn", self.explore_p_turn, Between{0.0, 1.0},
+          "[-] P(a turn at a step of the random exploration), where forward is free");
+    visit("goal_tolerance_m", self.goal_tolerance_m, Between{0.05, 5.0},
+          "[m] reached when the estimate is this close to the goal");
+    visit("reached_confidence", self.reached_confidence, Between{0.0, 1.0},
+          "[-] and the belief within 1 m of the estimate is at least this");
     visit("max_actions", self.max_actions, Between{1, 1000000}, "[actions] give up after so many");
     visit("seed", self.seed, Between{0, 4294967295.0}, "seed of the policy's random choices");
   }
 };
 
 /// How the journey stands; values as in msg/NavigationStatus.
-enum class NavigationState : std::uint8_t { kWaitingForMap = 0, kLocalizing, kNavigating, kReached, kFailed, kStopped };
+enum class NavigationState : std::uint8_t {
+  kWaitingForMap = 0,
+  kLocalizing,
+  kNavigating,
+  kReached,
+  kFailed,
+  kStopped
+};
 
 /// What to do now.
 struct Decision {
   NavigationState state = NavigationState::kStopped;
-  Action action;            ///< kStop when the state is an end
-  double distance_to_go_m = 0.0;  ///< along the path, NaN without one
-  std::string text;         ///< one sentence for a person
+  Action action;  ///< kStop when the state is an end
+  double distance_to_go_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN without a path
+  std::string text;  ///< one sentence for a person
 };
 
 /// What the localizer says, as the planner needs it.
@@ -60,23 +77,45 @@ struct Localization {
 };
 
 /// Holds the goal, asks the policy, declares the end.
+///
+/// The state follows from what is given: no goal, kStopped; belief not converged, or an estimate
+/// from where there is no way to the goal, kLocalizing (the policy explores); otherwise
+/// kNavigating. Two states are ends and stay until the next set_goal or cancel_goal:
+///  - kReached: the belief has converged, its confidence is at least reached_confidence, and the
+///    estimate is in the goal's cell or within goal_tolerance_m of its centre, in nominal metres,
+///    with no wall in between: the path is no longer than paths of that reach are without walls.
+///    Asked before an action is chosen, so a robot that passes the goal stops there.
+///  - kFailed: max_actions were ordered, or the belief has converged and hardly any of it
+///    (kNegligibleMass) is where a way leads to the goal.
 class Planner {
  public:
+  /// Throws std::invalid_argument when `params.policy` is unknown.
   Planner(CoarseMap map, const PlanningParams& params);
 
   /// The reason why `goal` [m, map frame] cannot be one (outside the drawing, on an occupied cell,
-  /// with no free neighbour); nothing when it is taken.
+  /// with no free neighbour) and what to choose instead; the goal held before stays. Nothing when
+  /// it is taken: the journey begins anew.
   std::optional<std::string> set_goal(Point2 goal_map);
   void cancel_goal();
   std::optional<Cell> goal() const { return goal_; }
 
-  /// One decision; counts the actions since the goal was set.
+  /// One decision; counts the actions since the goal was set. `is_blocked_ahead` is the obstacle
+  /// guard's word, or that the last step forward ended blocked: until it turns, the robot cannot go
+  /// forward.
   Decision decide(const Localization& localization, bool is_blocked_ahead);
-  /// The cells from `from` to the goal along the least cost; empty when there is no way.
+  /// The cells from `from` to the goal along the least cost; empty when there is no way or no goal.
   std::vector<Cell> path_from(Cell from) const;
   int actions() const { return actions_; }
 
+  /// Less belief than this is taken for none when asking whether the goal can be reached at all.
+  static constexpr double kNegligibleMass = 1e-3;
+
  private:
+  bool is_at_goal(const Localization& localization) const;
+  double reachable_mass(const Belief& belief) const;
+  Decision end(NavigationState state, double distance_m, std::string text);
+  Decision act(const Localization& localization, bool is_blocked_ahead, double distance_m);
+
   CoarseMap map_;
   PlanningParams params_;
   std::unique_ptr<Policy> policy_;
@@ -84,6 +123,7 @@ class Planner {
   std::optional<Cell> goal_;
   CostToGo cost_to_go_;
   int actions_ = 0;
+  std::optional<Decision> end_;
 };
 
 }  // namespace cmn

@@ -4,13 +4,13 @@
 /// Where to next: the seam between the planners of the papers and ours.
 #pragma once
 
-#include <memory>
-#include <random>
-#include <string>
-
 #include "coarse_map_nav/data/action.hpp"
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+
+#include <memory>
+#include <random>
+#include <string>
 
 namespace cmn {
 
@@ -22,7 +22,7 @@ struct Situation {
   const Belief& belief;
   const CostToGo& cost_to_go;  ///< towards the goal, of the whole map
   Estimate estimate;
-  double confidence = 0.0;     ///< probability within 1 m of the estimate, at its heading
+  double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
   bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward
 };
