@@ -4,49 +4,18 @@
 /// One action at a time: from order to velocities to what was really driven.
 #pragma once
 
+#include "coarse_map_nav/data/action.hpp"
+#include "coarse_map_nav/data/odometry.hpp"
+#include "coarse_map_nav/motion/forward_controller.hpp"
+#include "coarse_map_nav/motion/motion_params.hpp"
+#include "coarse_map_nav/motion/pivot_controller.hpp"
+#include "coarse_map_nav/motion/rest_detector.hpp"
+
 #include <cstdint>
+#include <limits>
 #include <optional>
 
-#include "coarse_map_nav/data/action.hpp"
-#include "coarse_map_nav/data/geometry.hpp"
-#include "coarse_map_nav/data/param_tree.hpp"
-
 namespace cmn {
-
-/// A pose in the odometry frame and when it held.
-struct OdometrySample {
-  double stamp_s = 0.0;
-  Pose2 T_odom_robot;
-};
-
-struct VelocityCommand {
-  double linear_mps = 0.0;    ///< forward
-  double angular_radps = 0.0;  ///< left
-};
-
-struct MotionParams {
-  double max_linear_mps = 0.3;     ///< Robb, Kobuki
-  double max_angular_radps = 1.0;  ///< Robb, Kobuki
-  double linear_acceleration = 0.5;
-  double angular_acceleration = 1.5;
-  double heading_gain = 2.0;
-  double position_tolerance_m = 0.01;
-  double yaw_tolerance_deg = 0.5;
-  double odometry_timeout_s = 0.5;
-  double action_timeout_s = 15.0;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("max_linear_mps", self.max_linear_mps, Between{0.01, 3.0}, "[m/s] top speed forward");
-    visit("max_angular_radps", self.max_angular_radps, Between{0.05, 6.0}, "[rad/s] top speed of a pivot");
-    visit("linear_acceleration", self.linear_acceleration, Between{0.05, 5.0}, "[m/s^2] ramp of the forward speed");
-    visit("angular_acceleration", self.angular_acceleration, Between{0.05, 20.0}, "[rad/s^2] ramp of the pivot speed");
-    visit("heading_gain", self.heading_gain, Between{0.0, 10.0}, "[1/s] turn rate per radian off the axis while driving forward");
-    visit("position_tolerance_m", self.position_tolerance_m, Between{0.001, 0.5}, "[m] a forward step ends this close to its length");
-    visit("yaw_tolerance_deg", self.yaw_tolerance_deg, Between{0.05, 20.0}, "[deg] a pivot ends this close to the axis");
-    visit("odometry_timeout_s", self.odometry_timeout_s, Between{0.05, 10.0}, "[s] stop when odometry is silent for so long");
-    visit("action_timeout_s", self.action_timeout_s, Between{0.5, 120.0}, "[s] give an action up after so long");
-  }
-};
 
 /// What to send to the base now, and the result when the action has just ended.
 struct MotionStep {
@@ -54,38 +23,80 @@ struct MotionStep {
   std::optional<MotionResult> result;
 };
 
+/// False for an action that nobody can carry out: a forward distance that is negative or not
+/// finite.
+bool is_executable(const Action& action);
+
 /// Carries out one action at a time, driven by odometry samples; no clock of its own.
 ///
-/// Pivot (Robb, "Better Pivot Controller"): trapezoidal speed, to the *exact* next axis of the
-/// odometry frame, so that slip does not add up. Forward (Robb, "Forward Motion Controller"): the
-/// same ramps along the axis nearest to the heading, which is held. An obstacle ends a forward step
-/// at once as kBlocked, as does `collided`; neither stops a pivot.
+/// A pivot ends on the *exact* next axis of the odometry frame, counted from the axis nearest to
+/// the yaw at its start. A forward step goes along the nearest axis; off that axis by more than the
+/// tolerance, it turns on the spot first. An obstacle ahead or a collision ends a forward step as
+/// kBlocked, with zero velocity in the same step and no motion at all if it was there from the
+/// start; neither stops a pivot, nor a forward step that has come to its end. All other ends brake
+/// within the acceleration limits.
+///
+/// An action ends only when the base stands still (see RestDetector) and zero has been commanded
+/// for as long, so the next one starts from rest, and results chain without a gap: what a
+/// braking or coasting base still drove is in the result. If at rest it is not where it should be,
+/// it is corrected until action_timeout_s has passed.
+///
+/// Faults: time running backwards (a bag that loops, a reset clock), a pose that jumps (the base
+/// driver restarted) or is not finite end the action at once as kTimedOut, with zero velocity and
+/// the displacement up to the last good sample. An action that waits ends with it.
 class MotionController {
  public:
   explicit MotionController(const MotionParams& params) : params_{params} {}
 
-  /// Begins `action`; one under way ends as kPreempted, and its result is returned. kStop only ends.
-  std::optional<MotionResult> start(std::uint32_t id, const Action& action, const OdometrySample& now);
-  /// The next command. At rest (no action) it is zero and there is no result.
+  /// Orders `action`. From rest it begins at `now`; otherwise the one under way is braked first,
+  /// ends as kPreempted in a later step(), and `action` begins then. kStop only does the former.
+  /// Returned is the result of an earlier order that was still waiting and will never begin.
+  /// `action` must be executable.
+  std::optional<MotionResult> start(std::uint32_t id, const Action& action,
+                                    const OdometrySample& now);
+  /// The next command; call it for every odometry sample. Zero when there is no action.
   MotionStep step(const OdometrySample& now, bool obstacle_ahead, bool collided);
   /// Call with the current time when no odometry came: past odometry_timeout_s the action ends as
-  /// kTimedOut with what was driven up to the last sample.
+  /// kTimedOut with what was driven up to the last sample. Send zero velocity then. An action that
+  /// waited is ended by the next call.
   std::optional<MotionResult> check_silence(double now_s);
-  bool is_idle() const { return !active_.has_value(); }
+  bool is_idle() const { return !active_ && !waiting_; }
 
  private:
-  struct Active {
+  struct Order {
     std::uint32_t id = 0;
     Action action;
-    OdometrySample start;
-    OdometrySample last;
-    double axis_yaw_rad = 0.0;  ///< of the axis to end on (pivot) or to hold (forward)
-    VelocityCommand command;
   };
+  enum class Phase { kPivot, kDrive, kSettle };
+  struct Active {
+    Order order;
+    OdometrySample start;
+    PivotController pivot;
+    ForwardController forward;
+    Phase phase = Phase::kSettle;
+    std::optional<MotionOutcome> ending;  ///< decided; only rest is waited for
+    double ending_since_s = 0.0;
+  };
+  void take(const OdometrySample& now);
+  void begin(const Order& order);
+  void end_as(MotionOutcome outcome);
   MotionResult finish(MotionOutcome outcome);
+  MotionResult interrupt();
+  bool is_continuous(const OdometrySample& now) const;
+  bool at_rest() const;
+  /// Where to go on from rest; kSettle when the action has come to its end.
+  Phase next_phase() const;
+  void leave_phase_when_done();
+  VelocityCommand wanted() const;
 
   MotionParams params_;
   std::optional<Active> active_;
+  std::optional<Order> waiting_;
+  OdometrySample last_;
+  bool has_last_ = false;
+  RestDetector rest_;
+  VelocityCommand command_;
+  double last_moving_command_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace cmn
