@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/carmen_log.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kNominalPeriod_s = 0.1;  // a CARMEN base reports at about 10 Hz
 constexpr double kSmallestPeriod_s = 1e-3;
-constexpr double kClockReset_s = 1.0;     // a stamp this far back is a clock that was set anew
 constexpr double kMetresPerRadian = 0.5;  // weighs turning against driving
 
 /// A FLASER or ODOM line.
@@ -142,35 +142,63 @@ bool is_pair(const Record& before, const Record& now) {
   return now.is_scan && !before.is_scan && now.stamp_s == before.stamp_s;
 }
 
-void order_stamps(std::vector<Record>& records, CarmenLog& log) {
-  double earliest = records.front().stamp_s;
-  double latest = earliest;
-  for (const Record& r : records) {
-    earliest = std::min(earliest, r.stamp_s);
-    latest = std::max(latest, r.stamp_s);
-  }
-  log.has_clock = records.size() == 1 ||
-                  latest - earliest >= kSmallestPeriod_s * static_cast<double>(records.size());
-  double shift = 0.0;
-  Record before = {records.front().stamp_s, {}, records.front().is_scan, {}};
-  for (std::size_t i = 1; i < records.size(); ++i) {
-    Record& now = records[i];
-    const double previous = records[i - 1].stamp_s;
-    const double raw = now.stamp_s;
-    double stamp = raw + shift;
-    if (is_pair(before, now)) {
-      stamp = previous;
-    } else if (!log.has_clock) {
-      stamp = previous + kNominalPeriod_s;
-    } else if (stamp <= previous) {
-      const bool was_reset = previous - stamp > kClockReset_s;
-      stamp = previous + (was_reset ? kNominalPeriod_s : kSmallestPeriod_s);
-      shift = was_reset ? stamp - raw : shift;
-      ++log.moved_stamps;
+/// The longest strictly increasing subsequence, as indices (Schensted 1961; n log n).
+std::vector<std::size_t> increasing_subsequence(const std::vector<double>& values) {
+  std::vector<std::size_t> tails;  // tails[k]: the smallest end of a subsequence of k + 1 values
+  std::vector<std::size_t> before(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto place =
+        std::lower_bound(tails.begin(), tails.end(), values[i],
+                         [&](std::size_t tail, double value) { return values[tail] < value; });
+    before[i] = place == tails.begin() ? i : *(place - 1);
+    if (place == tails.end()) {
+      tails.push_back(i);
+    } else {
+      *place = i;
     }
-    before.stamp_s = raw;
-    before.is_scan = now.is_scan;
-    now.stamp_s = stamp;
+  }
+  std::vector<std::size_t> chosen(tails.size());
+  for (std::size_t k = tails.size(), i = tails.empty() ? 0 : tails.back(); k > 0; i = before[i]) {
+    chosen[--k] = i;
+  }
+  return chosen;
+}
+
+/// Keeps as many stamps as can be in order and spreads the others evenly between those.
+void order_stamps(std::vector<double>& stamps, CarmenLog& log) {
+  const auto [earliest, latest] = std::minmax_element(stamps.begin(), stamps.end());
+  log.has_clock = stamps.size() == 1 ||
+                  *latest - *earliest >= kSmallestPeriod_s * static_cast<double>(stamps.size());
+  const std::vector<std::size_t> kept =
+      log.has_clock ? increasing_subsequence(stamps) : std::vector<std::size_t>{0};
+  log.moved_stamps = log.has_clock ? stamps.size() - kept.size() : 0;
+  for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
+    const double period =
+        (stamps[kept[k + 1]] - stamps[kept[k]]) / static_cast<double>(kept[k + 1] - kept[k]);
+    for (std::size_t i = kept[k] + 1; i < kept[k + 1]; ++i) {
+      stamps[i] = stamps[i - 1] + period;
+    }
+  }
+  for (std::size_t i = kept.front(); i > 0; --i) {
+    stamps[i - 1] = stamps[i] - kNominalPeriod_s;
+  }
+  for (std::size_t i = kept.back() + 1; i < stamps.size(); ++i) {
+    stamps[i] = stamps[i - 1] + kNominalPeriod_s;
+  }
+}
+
+void order_stamps(std::vector<Record>& records, CarmenLog& log) {
+  std::vector<double> stamps;
+  std::vector<std::size_t> moment(records.size());  // of each record, an index into stamps
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (i == 0 || !is_pair(records[i - 1], records[i])) {
+      stamps.push_back(records[i].stamp_s);
+    }
+    moment[i] = stamps.size() - 1;
+  }
+  order_stamps(stamps, log);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].stamp_s = stamps[moment[i]];
   }
 }
 

@@ -42,7 +42,7 @@ struct CarmenLog {
   std::vector<CarmenProblem> malformed;  ///< skipped
   std::size_t other_lines = 0;           ///< comments and messages of other kinds, skipped
   std::size_t repeated_poses = 0;        ///< ODOM lines that only repeat a scan's pose, skipped
-  std::size_t moved_stamps = 0;          ///< not later than the one before, moved after it
+  std::size_t moved_stamps = 0;          ///< out of order, spread between their neighbours
   bool has_clock = true;  ///< false: stamps too coarse to order the lines, 10 Hz assumed
 };
 

@@ -132,17 +132,17 @@ TEST(CarmenLog, WithoutAScanIsAnErrorThatSaysWhy) {
 
 TEST(CarmenLog, MakesStampsStrictlyIncreasing) {
   std::string text = "FLASER 2 1 1 0 0 0 0 0 0 100 host 100\n";
-  for (const char* stamp : {"100.5", "100.5", "100.4", "101", "3", "3.5", "3.5", "4"}) {
+  for (const char* stamp : {"100.5", "100.5", "107", "101", "3", "102", "102"}) {
     text += "ODOM 1 0 0 0 0 0 " + std::string{stamp} + " host 0\n";
   }
-  text += "FLASER 2 1 1 1 0 0 1 0 0 4 host 4\n";
+  text += "FLASER 2 1 1 1 0 0 1 0 0 102 host 102\n";
   const CarmenLog log = parse_carmen_log(text);
-  ASSERT_EQ(log.poses.size(), 9U) << "the last odometry line and the scan are one";
+  ASSERT_EQ(log.poses.size(), 8U) << "the last odometry line and the scan are one";
   for (std::size_t i = 1; i < log.poses.size(); ++i) {
     EXPECT_GT(log.poses[i].stamp_s, log.poses[i - 1].stamp_s) << i;
   }
-  EXPECT_EQ(log.moved_stamps, 4U);
-  EXPECT_NEAR(log.poses.back().stamp_s, 102.1, 1e-9) << "a clock that was set back runs on";
+  EXPECT_EQ(log.moved_stamps, 4U) << "a repetition, one ahead, one behind, another repetition";
+  EXPECT_LE(log.poses.back().stamp_s, 102.1) << "a stamp ahead of all does not push the others";
 }
 
 TEST(CarmenLog, AssumesTenHertzWhenTheStampsAreTooCoarse) {
