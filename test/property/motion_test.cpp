@@ -22,14 +22,17 @@ Action random_action(std::mt19937& rng) {
 
 double off_axis(const Pose2& T_odom_robot) { return std::abs(residual_yaw(T_odom_robot)); }
 
-// 200 seeds x 8 actions; measured: all within, the worst by 2.6 mm and 0.48 deg.
+// 200 seeds x 8 actions, on bases that answer after 0, 50 or 100 ms. Measured: all 1600 within, the
+// worst off by 4.7 mm and 0.49 deg.
 TEST(MotionProperty, EveryActionEndsWithinHalfADegreeAndACentimetreOnASlippingBase) {
   double worst_m = 0.0;
   double worst_rad = 0.0;
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 rng{seed};
-    Simulator simulator{empty_hall(40.0), {}, kMiddle, seed};
+    SimulationParams params;
+    params.robot.command_delay_s = 0.05 * (seed % 3);
+    Simulator simulator{empty_hall(40.0), params, kMiddle, seed};
     SimulatedDrive drive{simulator, {}};
     for (int i = 0; i < 8; ++i) {
       const Action action = random_action(rng);

@@ -14,7 +14,7 @@ struct MotionParams {
   double max_angular_radps = 1.0;
   double linear_acceleration = 0.5;
   double angular_acceleration = 1.5;
-  double approach_gain = 5.0;
+  double approach_gain = 4.0;
   double heading_gain = 2.0;
   double position_tolerance_m = 0.01;
   double yaw_tolerance_deg = 0.5;
