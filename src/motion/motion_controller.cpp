@@ -65,6 +65,9 @@ MotionStep MotionController::step(const OdometrySample& now, bool obstacle_ahead
     take(now);
   }
   if (!continuous || !active_) {
+    if (active_) {
+      active_->start = last_;  // what waited is on this side of the jump
+    }
     command_ = {};
     return out;
   }
