@@ -4,8 +4,6 @@
 
 #include "coarse_map_nav/data/random.hpp"
 
-#include <algorithm>
-
 namespace cmn {
 
 ActionType draw_turn(std::mt19937_64& rng) {
@@ -42,7 +40,8 @@ ActionType Exploration::follow(ActionType wish, bool is_blocked_ahead, ActionTyp
     detour_left_ = 0;
   }
   if (wish == ActionType::kMoveForward && is_blocked_ahead) {
-    detour_length_ = std::clamp(2 * detour_length_, 1, kLongestDetour);
+    detour_length_ =
+        detour_length_ == 0 || detour_length_ == kLongestDetour ? 1 : 2 * detour_length_;
     detour_left_ = detour_length_;
     followed_ = 0;
     return turn(turn_if_blocked);

@@ -29,8 +29,9 @@ class Exploration {
   /// A turn is not taken back by the next action, as an estimate that hops to and fro would have
   /// it. And where the way forward is wished but blocked (drawing or estimate is wrong), a detour
   /// begins: `turn_if_blocked`, then forward, unheeding of wishes, for one step. Each further
-  /// detour is twice as long as the one before, up to kLongestDetour, until the plan works again:
-  /// until twice as many forward steps as the last detour had went as wished. A detour ends early
+  /// detour is twice as long as the one before; after kLongestDetour comes one step again, since
+  /// what a short detour leaves a long one may overshoot. The first of a row is short: the row ends
+  /// when twice as many forward steps as the last detour had went as wished. A detour ends early
   /// when it is blocked itself.
   ActionType follow(ActionType wish, bool is_blocked_ahead, ActionType turn_if_blocked);
 
