@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace cmn {
@@ -73,6 +74,56 @@ double mass_near(const Belief& belief, const Estimate& estimate, double radius_c
     }
   }
   return mass;
+}
+
+std::vector<Estimate> best_hypotheses(const Belief& belief, std::size_t count,
+                                      int separation_cells) {
+  std::vector<Estimate> all;
+  for (const Heading h : kHeadings) {
+    for (int y = 0; y < belief.height(); ++y) {
+      for (int x = 0; x < belief.width(); ++x) {
+        const double p = belief(h, {x, y});
+        if (p > 0.0) {
+          all.push_back({h, {x, y}, p});
+        }
+      }
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Estimate& a, const Estimate& b) { return a.probability > b.probability; });
+  std::vector<Estimate> best;
+  for (const Estimate& candidate : all) {
+    if (best.size() == count) {
+      break;
+    }
+    const bool is_shadowed = std::any_of(best.begin(), best.end(), [&](const Estimate& better) {
+      const Cell d = candidate.cell - better.cell;
+      return candidate.heading == better.heading && std::abs(d.x) <= separation_cells &&
+             std::abs(d.y) <= separation_cells;
+    });
+    if (!is_shadowed) {
+      best.push_back(candidate);
+    }
+  }
+  return best;
+}
+
+Spread spread_about(const Belief& belief, const Estimate& estimate) {
+  Spread spread;
+  for (const Heading h : kHeadings) {
+    const double off_yaw = wrap_angle(yaw(h) - yaw(estimate.heading));
+    for (int y = 0; y < belief.height(); ++y) {
+      for (int x = 0; x < belief.width(); ++x) {
+        const double p = belief(h, {x, y});
+        const Cell d = Cell{x, y} - estimate.cell;
+        spread.xx += p * d.x * d.x;
+        spread.xy += p * d.x * d.y;
+        spread.yy += p * d.y * d.y;
+        spread.yaw += p * off_yaw * off_yaw;
+      }
+    }
+  }
+  return spread;
 }
 
 }  // namespace cmn

@@ -86,4 +86,18 @@ double entropy(const Belief& belief);
 /// The probability of the estimate's heading within `radius_cells` of its cell.
 double mass_near(const Belief& belief, const Estimate& estimate, double radius_cells);
 
+/// The `count` most probable states, best first, none within `separation_cells` of a better one of
+/// the same heading.
+std::vector<Estimate> best_hypotheses(const Belief& belief, std::size_t count,
+                                      int separation_cells);
+/// The spread of a belief about a state: second moments of the position about its cell [cells^2]
+/// and the mean squared yaw difference to its heading [rad^2].
+struct Spread {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  double yaw = 0.0;
+};
+Spread spread_about(const Belief& belief, const Estimate& estimate);
+
 }  // namespace cmn

@@ -1,0 +1,46 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A belief in all the forms that others want it in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include "coarse_map_nav/localization/belief_filter.hpp"
+
+namespace cmn {
+
+/// Publishes `belief`, its layers and marginal as occupancy grids for rviz, `pose` (as amcl does,
+/// covariance included) and `hypotheses`, all latched.
+///
+/// Each layer has a frame of its own, `belief/east` and so on below the map frame, that moves it
+/// aside: rviz shows the four next to the map, and the data stay those of the map.
+class BeliefPublisher {
+ public:
+  BeliefPublisher(ros::NodeHandle& nh, std::string map_frame);
+
+  /// Where rviz is to show the layers of a map of this size.
+  void place_layers(const CoarseMap& map);
+  /// `T_map_robot`: the estimate, residual yaw included. Stamps everything with `stamp`.
+  void publish(const BeliefFilter& filter, const Pose2& T_map_robot, std::uint32_t action_id,
+               const ros::Time& stamp);
+
+ private:
+  void publish_grids(const BeliefFilter& filter, const ros::Time& stamp);
+  void publish_hypotheses(const BeliefFilter& filter, const ros::Time& stamp);
+
+  std::string map_frame_;
+  ros::Publisher belief_pub_;
+  std::array<ros::Publisher, 4> layer_pubs_;
+  ros::Publisher marginal_pub_;
+  ros::Publisher pose_pub_;
+  ros::Publisher hypotheses_pub_;
+  tf2_ros::StaticTransformBroadcaster static_tf_;
+};
+
+}  // namespace cmn

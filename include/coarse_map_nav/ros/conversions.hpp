@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Messages <-> core types. Whatever can be malformed comes back as an optional and a reason.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <nav_msgs/MapMetaData.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_msgs/Header.h>
+
+#include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/perception/range_projection.hpp"
+
+namespace cmn {
+
+geometry_msgs::Quaternion quaternion_of(double yaw_rad);
+/// The yaw of a quaternion that need not be normalised; empty when it is no rotation (zero, NaN).
+std::optional<double> yaw_of(const geometry_msgs::Quaternion& q);
+geometry_msgs::Pose pose_message(const Pose2& pose);
+std::optional<Pose2> pose_of(const geometry_msgs::Pose& pose);
+geometry_msgs::Transform transform_message(const Pose2& pose);
+std::optional<Pose2> pose_of(const geometry_msgs::Transform& transform);
+
+nav_msgs::MapMetaData info_of(const CoarseMap& map);
+/// 0 free, 100 occupied.
+nav_msgs::OccupancyGrid grid_message(const CoarseMap& map);
+/// Values in [0, 50) are free, all others (unknown, -1, too) occupied. Empty, and `why` says what is
+/// wrong, for sizes that disagree, a resolution or origin that is none, no free cell.
+std::optional<CoarseMap> map_of(const nav_msgs::OccupancyGrid& grid, std::string& why);
+
+coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std_msgs::Header& h);
+std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccupancy& msg,
+                                                 std::string& why);
+
+/// What is wrong with a scan as a whole; empty when it can be used. Bad single ranges are no fault.
+std::string fault_of(const sensor_msgs::LaserScan& scan);
+RangeScan scan_of(const sensor_msgs::LaserScan& scan, const Pose2& T_robot_sensor);
+
+/// A belief as the planner gets it.
+struct ReceivedBelief {
+  Belief belief;
+  Estimate estimate;
+};
+/// Only the probabilities; the caller fills in header, estimate, summary and action_id.
+coarse_map_nav::Belief message_of(const Belief& belief, const CoarseMap& map);
+/// Empty, and `why` says so, when the message does not fit the map or holds no distribution.
+std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const CoarseMap& map,
+                                        std::string& why);
+
+}  // namespace cmn

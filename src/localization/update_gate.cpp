@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/localization/update_gate.hpp"
+
+namespace cmn {
+
+bool UpdateGate::is_due(double stamp_s, const Pose2& T_odom_robot) {
+  bool due = !T_odom_last_.has_value();
+  if (ended_ && stamp_s > ended_->stamp_s) {
+    action_id_ = ended_->id;
+    ended_.reset();
+    due = true;
+  } else if (!due && params_.update_on == "motion") {
+    const Displacement driven = displacement(*T_odom_last_, T_odom_robot);
+    due = driven.quarter_turns != 0 ||
+          std::hypot(driven.forward_m, driven.left_m) >= params_.update_distance_m;
+  }
+  if (due) {
+    T_odom_last_ = T_odom_robot;
+  }
+  return due;
+}
+
+bool UpdateGate::time_jumped_back(double stamp_s) {
+  // Neighbouring messages may swap places; a second is no such thing.
+  const bool jumped = last_stamp_s_ && stamp_s < *last_stamp_s_ - 1.0;
+  if (jumped) {
+    ended_.reset();
+  }
+  if (jumped || !last_stamp_s_ || stamp_s > *last_stamp_s_) {
+    last_stamp_s_ = stamp_s;
+  }
+  return jumped;
+}
+
+}  // namespace cmn

@@ -1,0 +1,217 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// local occupancy and odometry -> belief.
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <message_filters/subscriber.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <std_msgs/Empty.h>
+#include <std_srvs/Empty.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/message_filter.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/localization/update_gate.hpp"
+#include "coarse_map_nav/ros/belief_publisher.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+
+#include "coarse_map_nav/ros/node.hpp"
+
+namespace {
+
+using Occupancy = coarse_map_nav::LocalOccupancy;
+
+struct LocalizerNodeParams {
+  cmn::UpdateGateParams gate;
+  double transform_tolerance_s = 0.5;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    cmn::UpdateGateParams::visit_params(self.gate, visit);
+    visit("transform_tolerance_s", self.transform_tolerance_s, cmn::Between{0.0, 10.0},
+          "[s] map -> odom is stamped so far ahead of the observation (as amcl's)");
+  }
+};
+
+class LocalizerNode {
+ public:
+  LocalizerNode()
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<LocalizerNodeParams>>(ros::NodeHandle("~"))},
+        gate_{params_.own.gate},
+        publisher_{nh_, params_.frames.map},
+        observations_{"local_occupancy", 2.0},
+        occupancy_sub_{nh_, "local_occupancy", 5},
+        tf_filter_{occupancy_sub_, tf_buffer_, params_.frames.odom, 5, nh_} {
+    observe_pub_ = nh_.advertise<std_msgs::Empty>("observe", 1);
+    map_sub_ = nh_.subscribe("map", 1, &LocalizerNode::on_map, this);
+    result_sub_ = nh_.subscribe("motion_result", 5, &LocalizerNode::on_result, this);
+    pose_sub_ = nh_.subscribe("initialpose", 1, &LocalizerNode::on_initial_pose, this);
+    service_ = nh_.advertiseService("global_localization", &LocalizerNode::on_global, this);
+    tf_filter_.registerCallback(&LocalizerNode::on_observation, this);
+    tf_filter_.registerFailureCallback([this](const Occupancy::ConstPtr&, auto) {
+      observations_.dropped("no transform to " + params_.frames.odom + " at its time");
+    });
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("local_occupancy", &observations_, &cmn::InputMonitor::report);
+    diagnostics_.add("belief", this, &LocalizerNode::report);
+    timer_ = nh_.createTimer(ros::Duration(1.0), &LocalizerNode::on_timer, this);
+  }
+
+ private:
+  void on_map(const nav_msgs::OccupancyGrid& grid) {
+    std::string why;
+    const std::optional<cmn::CoarseMap> map = cmn::map_of(grid, why);
+    if (!map) {
+      ROS_ERROR_STREAM("map: " << why);
+      return;
+    }
+    if (filter_ && filter_->map().occupied() == map->occupied() &&
+        filter_->map().resolution() == map->resolution()) {
+      return;  // the map server came back with the same drawing
+    }
+    filter_.emplace(*map, params_.navigator.localization);
+    publisher_.place_layers(*map);
+    gate_.reset();
+    ROS_INFO_STREAM("localizing on a map of " << map->width() << " x " << map->height()
+                                              << " cells");
+  }
+
+  void on_result(const coarse_map_nav::MotionResult& result) {
+    gate_.action_ended(result.id, result.header.stamp.toSec());
+  }
+
+  void on_observation(const Occupancy::ConstPtr& msg) {
+    std::string why;
+    const std::optional<cmn::LocalOccupancy> seen = cmn::local_occupancy_of(*msg, why);
+    if (!seen) {
+      observations_.dropped(why);
+      return;
+    }
+    std::optional<cmn::Pose2> T_odom_robot;
+    try {
+      T_odom_robot = cmn::pose_of(tf_buffer_
+                                      .lookupTransform(params_.frames.odom, msg->header.frame_id,
+                                                       msg->header.stamp)
+                                      .transform);
+    } catch (const tf2::TransformException& e) {
+      why = e.what();
+    }
+    if (!T_odom_robot) {
+      observations_.dropped("no pose in " + params_.frames.odom + " at its time " + why);
+      return;
+    }
+    observations_.received(msg->header.stamp);
+    if (!filter_) {
+      return;
+    }
+    if (gate_.time_jumped_back(seen->stamp_s)) {
+      ROS_WARN("time went backwards: starting over");
+      filter_->reset();
+      gate_.reset();
+    }
+    if (gate_.is_due(seen->stamp_s, *T_odom_robot)) {
+      const cmn::Correction outcome = filter_->update(*seen, *T_odom_robot);
+      ROS_WARN_COND(outcome != cmn::Correction::kApplied, "what is seen contradicts the map%s",
+                    outcome == cmn::Correction::kReopened ? ": the belief is re-opened" : "");
+      T_odom_update_ = *T_odom_robot;
+      publisher_.publish(*filter_, T_map_robot(), gate_.action_id(), msg->header.stamp);
+    }
+    broadcast(msg->header.stamp);
+  }
+
+  void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& msg) {
+    const auto pose = cmn::pose_of(msg.pose.pose);
+    if (!filter_ || !pose || msg.header.frame_id != params_.frames.map) {
+      ROS_ERROR_STREAM("initialpose: needs a map and a pose in frame " << params_.frames.map);
+      return;
+    }
+    const auto& covariance = msg.pose.covariance;
+    const double sigma_m = std::sqrt(std::max(0.0, std::max(covariance[0], covariance[7])));
+    if (!filter_->reset_near(*pose, sigma_m, std::sqrt(std::max(0.0, covariance[35])))) {
+      ROS_ERROR("initialpose: there is no free cell near it");
+      return;
+    }
+    gate_.reset();
+  }
+
+  bool on_global(std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Response& /*response*/) {
+    if (filter_) {
+      filter_->reset();
+      gate_.reset();
+    }
+    return true;
+  }
+
+  /// The middle of the estimate's cell, its heading and what the robot is turned from the axis.
+  cmn::Pose2 T_map_robot() const {
+    const cmn::Point2 p = filter_->map().center_of(filter_->estimate().cell);
+    return {p.x, p.y,
+            cmn::wrap_angle(cmn::yaw(filter_->estimate().heading) +
+                            filter_->map().T_map_grid().yaw + cmn::residual_yaw(T_odom_update_))};
+  }
+
+  void broadcast(const ros::Time& stamp) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = stamp + ros::Duration(params_.own.transform_tolerance_s);
+    transform.header.frame_id = params_.frames.map;
+    transform.child_frame_id = params_.frames.odom;
+    transform.transform = cmn::transform_message(T_map_robot() * cmn::inverse(T_odom_update_));
+    tf_broadcaster_.sendTransform(transform);
+  }
+
+  void on_timer(const ros::TimerEvent& /*event*/) {
+    if (gate_.is_waiting()) {
+      observe_pub_.publish(std_msgs::Empty{});
+    }
+    diagnostics_.update();
+  }
+
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using Status = diagnostic_msgs::DiagnosticStatus;
+    if (!filter_) {
+      status.summary(Status::WARN, "waiting for a map");
+      return;
+    }
+    status.summary(Status::OK, filter_->is_converged() ? "converged" : "localizing");
+    status.add("confidence", filter_->confidence());
+    status.add("contradictions", filter_->contradictions());
+  }
+
+  ros::NodeHandle nh_;
+  cmn::NodeParams<LocalizerNodeParams> params_;
+  std::optional<cmn::BeliefFilter> filter_;
+  cmn::UpdateGate gate_;
+  cmn::BeliefPublisher publisher_;
+  cmn::InputMonitor observations_;
+  cmn::Pose2 T_odom_update_;
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_{tf_buffer_};
+  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  message_filters::Subscriber<Occupancy> occupancy_sub_;
+  tf2_ros::MessageFilter<Occupancy> tf_filter_;
+  ros::Publisher observe_pub_;
+  ros::Subscriber map_sub_;
+  ros::Subscriber result_sub_;
+  ros::Subscriber pose_sub_;
+  ros::ServiceServer service_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer timer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "localizer");
+  LocalizerNode node;
+  ros::spin();
+  return 0;
+}

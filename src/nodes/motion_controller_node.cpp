@@ -1,0 +1,176 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// action -> cmd_vel, and what was really driven. Steps once for every odometry message.
+
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/Twist.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <std_msgs/Bool.h>
+
+#include "coarse_map_nav/DiscreteAction.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/motion/motion_controller.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
+namespace {
+
+struct MotionNodeParams {
+  double obstacle_timeout_s = 0.5;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("obstacle_timeout_s", self.obstacle_timeout_s, cmn::Between{0.05, 10.0},
+          "[s] with obstacle_ahead silent for longer the robot does not move forward");
+  }
+};
+
+class MotionControllerNode {
+ public:
+  MotionControllerNode()
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<MotionNodeParams>>(ros::NodeHandle("~"))},
+        controller_{params_.navigator.motion},
+        odometry_{"odom", params_.navigator.motion.odometry_timeout_s},
+        obstacles_{"obstacle_ahead", params_.own.obstacle_timeout_s},
+        actions_{"action", 0.0} {
+    cmd_pub_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    result_pub_ = nh_.advertise<coarse_map_nav::MotionResult>("motion_result", 5);
+    odom_sub_ = nh_.subscribe("odom", 10, &MotionControllerNode::on_odometry, this,
+                              ros::TransportHints().tcpNoDelay());
+    action_sub_ = nh_.subscribe("action", 5, &MotionControllerNode::on_action, this);
+    obstacle_sub_ = nh_.subscribe("obstacle_ahead", 1, &MotionControllerNode::on_obstacle, this);
+    bumper_sub_ = nh_.subscribe("bumper", 1, &MotionControllerNode::on_bumper, this);
+    diagnostics_.setHardwareID("base");
+    for (cmn::InputMonitor* input : {&odometry_, &obstacles_, &actions_}) {
+      diagnostics_.add(input->name(), input, &cmn::InputMonitor::report);
+    }
+    watchdog_ = nh_.createTimer(ros::Duration(0.1), &MotionControllerNode::on_watchdog, this);
+    diagnostics_timer_ = nh_.createTimer(
+        ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  }
+  ~MotionControllerNode() { cmd_pub_.publish(geometry_msgs::Twist{}); }
+
+ private:
+  void on_action(const coarse_map_nav::DiscreteAction& msg) {
+    if (msg.type > coarse_map_nav::DiscreteAction::TURN_RIGHT ||
+        !(msg.distance >= 0.0F && msg.distance <= 10.0F)) {
+      actions_.dropped("no such action");
+      return;
+    }
+    actions_.received(msg.header.stamp);
+    if (last_result_ && last_result_->id == msg.id && msg.id != 0) {
+      result_pub_.publish(*last_result_);  // asked for again: it was done, only the answer was lost
+      return;
+    }
+    if (!controller_.is_idle() && msg.id == active_id_) {
+      return;  // asked for again while under way
+    }
+    if (!last_sample_) {
+      actions_.dropped("there is no odometry yet");
+      return;
+    }
+    active_id_ = msg.id;
+    const cmn::Action action{static_cast<cmn::ActionType>(msg.type),
+                             static_cast<double>(msg.distance)};
+    publish(controller_.start(msg.id, action, *last_sample_));
+  }
+
+  void on_odometry(const nav_msgs::Odometry& odom) {
+    const std::optional<cmn::Pose2> T_odom_robot = cmn::pose_of(odom.pose.pose);
+    if (!T_odom_robot) {
+      odometry_.dropped("the pose is not a pose");
+      return;
+    }
+    odometry_.received(odom.header.stamp);
+    last_sample_ = cmn::OdometrySample{odom.header.stamp.toSec(), *T_odom_robot};
+    last_arrival_ = ros::Time::now();
+    const bool was_idle = controller_.is_idle();
+    const bool is_guard_silent =
+        (last_arrival_ - obstacle_arrival_).toSec() > params_.own.obstacle_timeout_s;
+    const cmn::MotionStep step =
+        controller_.step(*last_sample_, obstacle_ahead_ || is_guard_silent, is_bumped_);
+    if (!was_idle) {
+      command(step.command);
+    }
+    publish(step.result);
+  }
+
+  void on_obstacle(const std_msgs::Bool& blocked) {
+    obstacle_ahead_ = blocked.data != 0;
+    obstacle_arrival_ = ros::Time::now();
+    obstacles_.received(obstacle_arrival_);
+  }
+  void on_bumper(const std_msgs::Bool& bumped) { is_bumped_ = bumped.data != 0; }
+
+  /// Odometry may fall silent: then nobody else would stop the base.
+  void on_watchdog(const ros::TimerEvent& /*event*/) {
+    if (controller_.is_idle() || !last_sample_) {
+      return;
+    }
+    const double silent_s = (ros::Time::now() - last_arrival_).toSec();
+    const auto result = controller_.check_silence(last_sample_->stamp_s + silent_s);
+    if (result) {
+      command({});
+      ROS_WARN_STREAM("odometry is silent for " << silent_s << " s: stopped");
+    }
+    publish(result);
+  }
+
+  void command(const cmn::VelocityCommand& velocity) {
+    geometry_msgs::Twist twist;
+    twist.linear.x = velocity.linear_mps;
+    twist.angular.z = velocity.angular_radps;
+    cmd_pub_.publish(twist);
+  }
+
+  void publish(const std::optional<cmn::MotionResult>& result) {
+    if (!result) {
+      return;
+    }
+    coarse_map_nav::MotionResult msg;
+    msg.header.stamp = ros::Time(last_sample_->stamp_s);
+    msg.header.frame_id = params_.frames.odom;
+    msg.id = result->action_id;
+    msg.outcome = static_cast<std::uint8_t>(result->outcome);
+    msg.displacement.x = result->T_start_end.x;
+    msg.displacement.y = result->T_start_end.y;
+    msg.displacement.theta = result->T_start_end.yaw;
+    result_pub_.publish(msg);
+    last_result_ = msg;
+  }
+
+  ros::NodeHandle nh_;
+  cmn::NodeParams<MotionNodeParams> params_;
+  cmn::MotionController controller_;
+  cmn::InputMonitor odometry_;
+  cmn::InputMonitor obstacles_;
+  cmn::InputMonitor actions_;
+  std::optional<cmn::OdometrySample> last_sample_;
+  ros::Time last_arrival_;
+  ros::Time obstacle_arrival_;
+  bool obstacle_ahead_ = false;
+  bool is_bumped_ = false;
+  std::uint32_t active_id_ = 0;
+  std::optional<coarse_map_nav::MotionResult> last_result_;
+  ros::Publisher cmd_pub_;
+  ros::Publisher result_pub_;
+  ros::Subscriber odom_sub_;
+  ros::Subscriber action_sub_;
+  ros::Subscriber obstacle_sub_;
+  ros::Subscriber bumper_sub_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer watchdog_;
+  ros::Timer diagnostics_timer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "motion_controller");
+  MotionControllerNode node;
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,141 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// sensors -> local occupancy, and whether the way ahead is blocked.
+
+#include <optional>
+#include <string>
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Empty.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/perception/range_projection.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
+namespace {
+
+struct PerceptionNodeParams {
+  double scan_timeout_s = 1.0;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("scan_timeout_s", self.scan_timeout_s, cmn::Between{0.05, 60.0},
+          "[s] scans silent for longer are an error in /diagnostics");
+  }
+};
+
+class PerceptionNode {
+ public:
+  PerceptionNode()
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<PerceptionNodeParams>>(
+            ros::NodeHandle("~"))},
+        projector_{params_.navigator.perception.local_occupancy},
+        scans_{"scan", params_.own.scan_timeout_s} {
+    local_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_occupancy", 1);
+    grid_pub_ = nh_.advertise<nav_msgs::OccupancyGrid>("local_occupancy/grid", 1);
+    blocked_pub_ = nh_.advertise<std_msgs::Bool>("obstacle_ahead", 1);
+    scan_sub_ = nh_.subscribe("scan", 1, &PerceptionNode::on_scan, this);
+    observe_sub_ = nh_.subscribe("observe", 1, &PerceptionNode::on_observe, this);
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("scan", &scans_, &cmn::InputMonitor::report);
+    timer_ = nh_.createTimer(ros::Duration(1.0),
+                             [this](const ros::TimerEvent&) { diagnostics_.update(); });
+  }
+
+ private:
+  void on_scan(const sensor_msgs::LaserScan& scan) {
+    const std::string fault = cmn::fault_of(scan);
+    if (!fault.empty()) {
+      scans_.dropped(fault);
+      return;
+    }
+    const std::optional<cmn::Pose2> T_robot_sensor = mount_of(scan);
+    if (!T_robot_sensor) {
+      return;
+    }
+    scans_.received(scan.header.stamp);
+    cmn::BeamCount beams;
+    const cmn::LocalOccupancy local =
+        projector_.project(cmn::scan_of(scan, *T_robot_sensor), &beams);
+    if (beams.used == 0) {
+      scans_.dropped("no range of the scan is usable");
+      return;
+    }
+    std_msgs::Bool blocked;
+    blocked.data = cmn::is_blocked_ahead(local, params_.navigator.perception.guard);
+    blocked_pub_.publish(blocked);
+
+    std_msgs::Header header = scan.header;
+    header.frame_id = params_.frames.base;
+    last_ = cmn::message_of(local, header);
+    local_pub_.publish(*last_);
+    if (grid_pub_.getNumSubscribers() > 0) {
+      publish_grid(local, header);
+    }
+  }
+
+  /// Somebody missed the last observation: once more.
+  void on_observe(const std_msgs::Empty& /*request*/) {
+    if (last_) {
+      local_pub_.publish(*last_);
+    }
+  }
+
+  std::optional<cmn::Pose2> mount_of(const sensor_msgs::LaserScan& scan) {
+    try {
+      const auto transform = tf_buffer_.lookupTransform(
+          params_.frames.base, scan.header.frame_id, scan.header.stamp, ros::Duration(0.0));
+      if (const auto pose = cmn::pose_of(transform.transform)) {
+        return pose;
+      }
+      scans_.dropped("the sensor's mount is not a pose");
+    } catch (const tf2::TransformException& e) {
+      scans_.dropped("no transform from " + scan.header.frame_id + " to " + params_.frames.base);
+      ROS_DEBUG_STREAM(e.what());
+    }
+    return std::nullopt;
+  }
+
+  void publish_grid(const cmn::LocalOccupancy& local, const std_msgs::Header& header) {
+    nav_msgs::OccupancyGrid grid;
+    grid.header = header;
+    grid.info.resolution = static_cast<float>(local.resolution);
+    grid.info.width = grid.info.height = static_cast<std::uint32_t>(local.size);
+    grid.info.origin = cmn::pose_message({-0.5 * local.side_m(), -0.5 * local.side_m(), 0.0});
+    for (std::size_t i = 0; i < local.cell_count(); ++i) {
+      const bool is_known = local.confidence[i] > 0.0F;
+      grid.data.push_back(is_known ? static_cast<std::int8_t>(100.0F * local.occupancy[i]) : -1);
+    }
+    grid_pub_.publish(grid);
+  }
+
+  ros::NodeHandle nh_;
+  cmn::NodeParams<PerceptionNodeParams> params_;
+  cmn::RangeProjector projector_;
+  cmn::InputMonitor scans_;
+  std::optional<coarse_map_nav::LocalOccupancy> last_;
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_{tf_buffer_};
+  ros::Publisher local_pub_;
+  ros::Publisher grid_pub_;
+  ros::Publisher blocked_pub_;
+  ros::Subscriber scan_sub_;
+  ros::Subscriber observe_sub_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer timer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "perception");
+  PerceptionNode node;
+  ros::spin();
+  return 0;
+}

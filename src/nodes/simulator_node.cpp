@@ -1,0 +1,215 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world.
+
+#include <exception>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_msgs/Bool.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "coarse_map_nav/mapping/map_reader.hpp"
+#include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/simulation/simulator.hpp"
+
+namespace {
+
+struct SimulatorNodeParams {
+  std::string world;
+  double start_x = std::numeric_limits<double>::quiet_NaN();
+  double start_y = std::numeric_limits<double>::quiet_NaN();
+  double start_yaw_deg = std::numeric_limits<double>::quiet_NaN();
+  std::uint32_t seed = 1;
+  double speed = 1.0;
+  double odometry_rate = 50.0;
+  double scan_rate = 10.0;
+  double command_timeout_s = 0.6;
+  std::string laser_frame = "laser";
+  cmn::SimulationParams simulation;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("world", self.world, cmn::Anything{}, "file of the metric world, map_server yaml");
+    visit("start_x", self.start_x, cmn::Between{-1e6, 1e6}, "[m] start; not given: drawn from the seed");
+    visit("start_y", self.start_y, cmn::Between{-1e6, 1e6}, "[m] start; not given: drawn from the seed");
+    visit("start_yaw_deg", self.start_yaw_deg, cmn::Between{-360.0, 360.0},
+          "[deg] start; not given: one of the four headings, drawn from the seed");
+    visit("seed", self.seed, cmn::Between{0, 4294967295.0}, "seed of the start, noise and slip");
+    visit("speed", self.speed, cmn::Between{0.1, 100.0}, "[-] simulated over real time");
+    visit("odometry_rate", self.odometry_rate, cmn::Between{5.0, 500.0}, "[Hz] odom, TF and /clock");
+    visit("scan_rate", self.scan_rate, cmn::Between{0.5, 100.0}, "[Hz] scan");
+    visit("command_timeout_s", self.command_timeout_s, cmn::Between{0.05, 10.0},
+          "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
+    visit("laser_frame", self.laser_frame, cmn::Anything{}, "frame of the LiDAR");
+    visit.group("simulation", self.simulation);
+  }
+};
+
+using Params = cmn::NodeParams<SimulatorNodeParams>;
+
+/// The start that the parameters give; what they leave open is drawn from the world's list of
+/// starts, or from all free poses.
+cmn::Pose2 start_of(const SimulatorNodeParams& own, const cmn::World& world) {
+  std::mt19937_64 rng{own.seed};
+  cmn::Pose2 start = cmn::random_start(world, cmn::read_starts(own.world), rng);
+  start.x = std::isnan(own.start_x) ? start.x : own.start_x;
+  start.y = std::isnan(own.start_y) ? start.y : own.start_y;
+  start.yaw = std::isnan(own.start_yaw_deg) ? start.yaw : own.start_yaw_deg * cmn::kPi / 180.0;
+  return start;
+}
+
+class SimulatorNode {
+ public:
+  SimulatorNode(const Params& params, cmn::World world, const cmn::Pose2& start)
+      : params_{params},
+        simulator_{std::move(world), params.own.simulation, start, params.own.seed} {
+    clock_pub_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 1);
+    odom_pub_ = nh_.advertise<nav_msgs::Odometry>("odom", 10);
+    scan_pub_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 2);
+    truth_pub_ = nh_.advertise<nav_msgs::Odometry>("ground_truth", 10);
+    bumper_pub_ = nh_.advertise<std_msgs::Bool>("bumper", 1, true);
+    cmd_sub_ = nh_.subscribe("cmd_vel", 1, &SimulatorNode::on_command, this,
+                             ros::TransportHints().tcpNoDelay());
+    geometry_msgs::TransformStamped mount;
+    mount.header.frame_id = params_.frames.base;
+    mount.child_frame_id = params_.own.laser_frame;
+    mount.transform = cmn::transform_message(simulator_.scan().T_robot_sensor);
+    static_tf_.sendTransform(mount);
+    diagnostics_.setHardwareID("simulator");
+    diagnostics_.add("world", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      status.summary(diagnostic_msgs::DiagnosticStatus::OK, params_.own.world);
+      status.add("time [s]", simulator_.time_s());
+      status.add("collisions", simulator_.collisions());
+    });
+  }
+
+  void run() {
+    const double step_s = 1.0 / params_.own.odometry_rate;
+    ros::WallRate rate(params_.own.odometry_rate * params_.own.speed);
+    double next_scan_s = 0.0;
+    while (ros::ok()) {
+      ros::spinOnce();
+      const bool is_silent = simulator_.time_s() - command_s_ > params_.own.command_timeout_s;
+      simulator_.advance(step_s, is_silent ? cmn::VelocityCommand{} : command_);
+      publish_state();
+      if (simulator_.time_s() >= next_scan_s) {
+        publish_scan();
+        next_scan_s += 1.0 / params_.own.scan_rate;
+        diagnostics_.update();
+      }
+      rate.sleep();
+    }
+  }
+
+ private:
+  void on_command(const geometry_msgs::Twist& twist) {
+    if (std::isfinite(twist.linear.x) && std::isfinite(twist.angular.z)) {
+      command_ = {twist.linear.x, twist.angular.z};
+      command_s_ = simulator_.time_s();
+    }
+  }
+
+  ros::Time stamp() const { return ros::Time(kEpoch_s + simulator_.time_s()); }
+
+  void publish_state() {
+    rosgraph_msgs::Clock clock;
+    clock.clock = stamp();
+    clock_pub_.publish(clock);
+
+    nav_msgs::Odometry odom;
+    odom.header.stamp = clock.clock;
+    odom.header.frame_id = params_.frames.odom;
+    odom.child_frame_id = params_.frames.base;
+    const cmn::Pose2 T_odom_robot = simulator_.odometry().T_odom_robot;
+    odom.pose.pose = cmn::pose_message(T_odom_robot);
+    odom.twist.twist.linear.x = simulator_.velocity().linear_mps;
+    odom.twist.twist.angular.z = simulator_.velocity().angular_radps;
+    geometry_msgs::TransformStamped transform;
+    transform.header = odom.header;
+    transform.child_frame_id = odom.child_frame_id;
+    transform.transform = cmn::transform_message(T_odom_robot);
+    tf_.sendTransform(transform);
+    odom_pub_.publish(odom);
+
+    odom.header.frame_id = "world";
+    odom.pose.pose = cmn::pose_message(simulator_.truth());
+    truth_pub_.publish(odom);
+
+    std_msgs::Bool bumped;
+    bumped.data = static_cast<std::uint8_t>(simulator_.bumped());
+    if (bumped.data != was_bumped_) {
+      bumper_pub_.publish(bumped);
+      was_bumped_ = bumped.data;
+    }
+  }
+
+  void publish_scan() {
+    const cmn::RangeScan scan = simulator_.scan();
+    sensor_msgs::LaserScan msg;
+    msg.header.stamp = stamp();
+    msg.header.frame_id = params_.own.laser_frame;
+    msg.angle_min = static_cast<float>(scan.angle_min_rad);
+    msg.angle_increment = static_cast<float>(scan.angle_increment_rad);
+    msg.angle_max = static_cast<float>(
+        scan.angle_min_rad +
+        scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0));
+    msg.scan_time = static_cast<float>(1.0 / params_.own.scan_rate);
+    msg.range_min = static_cast<float>(scan.range_min_m);
+    msg.range_max = static_cast<float>(scan.range_max_m);
+    msg.ranges = scan.ranges_m;
+    scan_pub_.publish(msg);
+  }
+
+  /// Simulated time starts here: time 0 means "no time yet" to ROS.
+  static constexpr double kEpoch_s = 1.0;
+
+  ros::NodeHandle nh_;
+  Params params_;
+  cmn::Simulator simulator_;
+  cmn::VelocityCommand command_;
+  double command_s_ = -1e9;
+  std::uint8_t was_bumped_ = 2;  // neither: the first state is always published
+  tf2_ros::TransformBroadcaster tf_;
+  tf2_ros::StaticTransformBroadcaster static_tf_;
+  ros::Publisher clock_pub_;
+  ros::Publisher odom_pub_;
+  ros::Publisher scan_pub_;
+  ros::Publisher truth_pub_;
+  ros::Publisher bumper_pub_;
+  ros::Subscriber cmd_sub_;
+  diagnostic_updater::Updater diagnostics_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulator");
+  ros::NodeHandle private_nh("~");
+  const auto params = cmn::load_params_or_exit<Params>(private_nh);
+  if (params.own.world.empty()) {
+    cmn::exit_with({"world: name the file of the world, for example _world:=worlds/home.yaml"});
+  }
+  try {
+    const cmn::World world{cmn::read_map(params.own.world)};
+    const cmn::Pose2 start = start_of(params.own, world);
+    if (world.is_in_collision(start.position(), params.own.simulation.robot.radius_m)) {
+      cmn::exit_with({"start_x, start_y: the robot does not fit there without touching a wall"});
+    }
+    SimulatorNode{params, world, start}.run();
+  } catch (const std::exception& e) {
+    cmn::exit_with({e.what()});
+  }
+  return 0;
+}

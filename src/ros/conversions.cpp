@@ -1,0 +1,224 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/ros/conversions.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace cmn {
+namespace {
+
+bool is_finite(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
+
+/// A float of a message as the decimal number it was meant to be: 0.4F is 0.4 again.
+double widened(float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; }
+
+}  // namespace
+
+geometry_msgs::Quaternion quaternion_of(double yaw_rad) {
+  geometry_msgs::Quaternion q;
+  q.z = std::sin(0.5 * yaw_rad);
+  q.w = std::cos(0.5 * yaw_rad);
+  return q;
+}
+
+std::optional<double> yaw_of(const geometry_msgs::Quaternion& q) {
+  const double square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!std::isfinite(square) || square < 1e-6) {
+    return std::nullopt;
+  }
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y) / square,
+                    1.0 - 2.0 * (q.y * q.y + q.z * q.z) / square);
+}
+
+geometry_msgs::Pose pose_message(const Pose2& pose) {
+  geometry_msgs::Pose message;
+  message.position.x = pose.x;
+  message.position.y = pose.y;
+  message.orientation = quaternion_of(pose.yaw);
+  return message;
+}
+
+std::optional<Pose2> pose_of(const geometry_msgs::Pose& pose) {
+  const std::optional<double> yaw = yaw_of(pose.orientation);
+  if (!yaw || !is_finite(pose.position.x, pose.position.y)) {
+    return std::nullopt;
+  }
+  return Pose2{pose.position.x, pose.position.y, *yaw};
+}
+
+geometry_msgs::Transform transform_message(const Pose2& pose) {
+  geometry_msgs::Transform message;
+  message.translation.x = pose.x;
+  message.translation.y = pose.y;
+  message.rotation = quaternion_of(pose.yaw);
+  return message;
+}
+
+std::optional<Pose2> pose_of(const geometry_msgs::Transform& transform) {
+  const std::optional<double> yaw = yaw_of(transform.rotation);
+  if (!yaw || !is_finite(transform.translation.x, transform.translation.y)) {
+    return std::nullopt;
+  }
+  return Pose2{transform.translation.x, transform.translation.y, *yaw};
+}
+
+nav_msgs::MapMetaData info_of(const CoarseMap& map) {
+  nav_msgs::MapMetaData info;
+  info.resolution = static_cast<float>(map.resolution());
+  info.width = static_cast<std::uint32_t>(map.width());
+  info.height = static_cast<std::uint32_t>(map.height());
+  info.origin = pose_message(map.T_map_grid());
+  return info;
+}
+
+nav_msgs::OccupancyGrid grid_message(const CoarseMap& map) {
+  nav_msgs::OccupancyGrid grid;
+  grid.info = info_of(map);
+  grid.data.reserve(map.occupied().size());
+  for (const std::uint8_t occupied : map.occupied().values()) {
+    grid.data.push_back(occupied == 0 ? 0 : 100);
+  }
+  return grid;
+}
+
+std::optional<CoarseMap> map_of(const nav_msgs::OccupancyGrid& grid, std::string& why) {
+  const auto cells = static_cast<std::uint64_t>(grid.info.width) * grid.info.height;
+  const std::optional<Pose2> origin = pose_of(grid.info.origin);
+  if (cells == 0 || cells != grid.data.size()) {
+    why = "the map says " + std::to_string(grid.info.width) + " x " +
+          std::to_string(grid.info.height) + " cells and holds " + std::to_string(grid.data.size());
+  } else if (!(grid.info.resolution > 0.0F) || !std::isfinite(grid.info.resolution)) {
+    why = "the map's resolution " + std::to_string(grid.info.resolution) + " is no cell size";
+  } else if (!origin) {
+    why = "the map's origin is not a pose";
+  } else {
+    Grid<std::uint8_t> occupied{static_cast<int>(grid.info.width),
+                                static_cast<int>(grid.info.height)};
+    for (std::size_t i = 0; i < occupied.size(); ++i) {
+      occupied[i] = grid.data[i] < 0 || grid.data[i] >= 50 ? 1 : 0;
+    }
+    CoarseMap map{std::move(occupied), widened(grid.info.resolution), *origin};
+    if (map.free_count() > 0) {
+      return map;
+    }
+    why = "the map has no free cell";
+  }
+  return std::nullopt;
+}
+
+coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std_msgs::Header& h) {
+  coarse_map_nav::LocalOccupancy message;
+  message.header = h;
+  message.resolution = static_cast<float>(local.resolution);
+  message.size = static_cast<std::uint32_t>(local.size);
+  message.occupancy = local.occupancy;
+  message.confidence = local.confidence;
+  message.source = static_cast<std::uint8_t>(local.source);
+  return message;
+}
+
+std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccupancy& msg,
+                                                 std::string& why) {
+  const auto cells = static_cast<std::uint64_t>(msg.size) * msg.size;
+  if (cells == 0 || msg.occupancy.size() != cells || msg.confidence.size() != cells) {
+    why = "it says " + std::to_string(msg.size) + " cells a side and holds " +
+          std::to_string(msg.occupancy.size()) + " values and " +
+          std::to_string(msg.confidence.size()) + " confidences";
+    return std::nullopt;
+  }
+  if (!(msg.resolution > 0.0F) || !std::isfinite(msg.resolution)) {
+    why = "it has no cell size";
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < cells; ++i) {
+    const float p = msg.occupancy[i];
+    const float c = msg.confidence[i];
+    if (!(p >= 0.0F && p <= 1.0F) || !(c >= 0.0F) || !std::isfinite(c)) {
+      why = "it holds a value that is no probability or no confidence";
+      return std::nullopt;
+    }
+  }
+  LocalOccupancy local;
+  local.stamp_s = msg.header.stamp.toSec();
+  local.resolution = widened(msg.resolution);
+  local.size = static_cast<int>(msg.size);
+  local.occupancy = msg.occupancy;
+  local.confidence = msg.confidence;
+  local.source = static_cast<ObservationSource>(msg.source);
+  return local;
+}
+
+std::string fault_of(const sensor_msgs::LaserScan& scan) {
+  if (scan.ranges.empty()) {
+    return "the scan has no ranges";
+  }
+  if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment) ||
+      scan.angle_increment == 0.0F) {
+    return "the scan's angles are no angles";
+  }
+  if (!std::isfinite(scan.range_min) || !std::isfinite(scan.range_max) || scan.range_min < 0.0F ||
+      !(scan.range_max > scan.range_min)) {
+    return "the scan's range_min and range_max are no interval";
+  }
+  return "";
+}
+
+RangeScan scan_of(const sensor_msgs::LaserScan& scan, const Pose2& T_robot_sensor) {
+  RangeScan result;
+  result.stamp_s = scan.header.stamp.toSec();
+  result.angle_min_rad = static_cast<double>(scan.angle_min);
+  result.angle_increment_rad = static_cast<double>(scan.angle_increment);
+  result.range_min_m = static_cast<double>(scan.range_min);
+  result.range_max_m = static_cast<double>(scan.range_max);
+  result.ranges_m = scan.ranges;
+  result.T_robot_sensor = T_robot_sensor;
+  return result;
+}
+
+coarse_map_nav::Belief message_of(const Belief& belief, const CoarseMap& map) {
+  coarse_map_nav::Belief message;
+  message.info = info_of(map);
+  message.layers = static_cast<std::uint8_t>(kHeadings.size());
+  message.probability.reserve(kHeadings.size() * map.occupied().size());
+  for (const Heading h : kHeadings) {
+    for (std::size_t i = 0; i < map.occupied().size(); ++i) {
+      message.probability.push_back(static_cast<float>(belief(h, map.occupied().cell_at(i))));
+    }
+  }
+  return message;
+}
+
+std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const CoarseMap& map,
+                                        std::string& why) {
+  const std::size_t cells = map.occupied().size();
+  if (msg.layers != kHeadings.size() || msg.info.width != static_cast<std::uint32_t>(map.width()) ||
+      msg.info.height != static_cast<std::uint32_t>(map.height()) ||
+      msg.probability.size() != kHeadings.size() * cells) {
+    why = "it is not one over four headings and the cells of this map";
+    return std::nullopt;
+  }
+  ReceivedBelief received;
+  received.belief = Belief{map.width(), map.height()};
+  for (const Heading h : kHeadings) {
+    const std::size_t first = static_cast<std::size_t>(index(h)) * cells;
+    for (std::size_t i = 0; i < cells; ++i) {
+      received.belief.set_weight(h, map.occupied().cell_at(i),
+                                 static_cast<double>(msg.probability[first + i]));
+    }
+  }
+  const std::optional<Pose2> T_map_robot = pose_of(msg.estimate);
+  if (!received.belief.normalise() || !T_map_robot ||
+      !map.contains(map.cell_of(T_map_robot->position()))) {
+    why = "it holds no distribution or its estimate lies off the map";
+    return std::nullopt;
+  }
+  received.estimate.cell = map.cell_of(T_map_robot->position());
+  received.estimate.heading = nearest_heading(T_map_robot->yaw - map.T_map_grid().yaw);
+  received.estimate.probability =
+      received.belief(received.estimate.heading, received.estimate.cell);
+  return received;
+}
+
+}  // namespace cmn
