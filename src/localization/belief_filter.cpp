@@ -12,6 +12,9 @@
 namespace cmn {
 namespace {
 
+/// Lies on no map, so that the next look at the belief chooses afresh.
+constexpr Estimate kNoEstimate{Heading::kEast, {-1, -1}, 0.0};
+
 /// One layer's worth of a filter step: out = L * moved(in), over the padded layout.
 ///
 /// `stay` and `come` say, by neighbourhood, what share of a cell's own weight it keeps and what
@@ -77,6 +80,7 @@ BeliefFilter::BeliefFilter(CoarseMap map, const LocalizationParams& params)
 
 void BeliefFilter::reset() {
   belief_ = Belief::uniform(map_);
+  estimate_ = kNoEstimate;
   forget_odometry();
   contradictions_in_a_row_ = 0;
   summarise();
@@ -103,6 +107,7 @@ bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
     return false;
   }
   belief_ = std::move(near);
+  estimate_ = kNoEstimate;
   forget_odometry();
   contradictions_in_a_row_ = 0;
   summarise();

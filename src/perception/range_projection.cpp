@@ -11,7 +11,7 @@ namespace {
 /// The beam nearest to a bearing in the sensor's frame; -1 when none is within half an increment.
 std::int32_t nearest_beam(const RangeScan& scan, std::size_t beams, double bearing_rad) {
   const double step = std::abs(scan.angle_increment_rad);
-  if (!(step > 0.0) || !std::isfinite(step) || !std::isfinite(scan.angle_min_rad)) {
+  if (beams == 0 || !(step > 0.0) || !std::isfinite(step) || !std::isfinite(scan.angle_min_rad)) {
     return -1;
   }
   const double sense = scan.angle_increment_rad > 0.0 ? 1.0 : -1.0;
