@@ -55,8 +55,9 @@ class MotionControllerNode {
 
  private:
   void on_action(const coarse_map_nav::DiscreteAction& msg) {
-    if (msg.type > coarse_map_nav::DiscreteAction::TURN_RIGHT ||
-        !(msg.distance >= 0.0F && msg.distance <= 10.0F)) {
+    const cmn::Action action{static_cast<cmn::ActionType>(msg.type),
+                             static_cast<double>(msg.distance)};
+    if (!cmn::is_executable(action)) {
       actions_.dropped("no such action");
       return;
     }
@@ -73,8 +74,6 @@ class MotionControllerNode {
       return;
     }
     active_id_ = msg.id;
-    const cmn::Action action{static_cast<cmn::ActionType>(msg.type),
-                             static_cast<double>(msg.distance)};
     publish(controller_.start(msg.id, action, *last_sample_));
   }
 

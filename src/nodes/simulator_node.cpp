@@ -3,11 +3,14 @@
 /// \file
 /// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world.
 
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <optional>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Twist.h>
@@ -59,15 +62,23 @@ struct SimulatorNodeParams {
 
 using Params = cmn::NodeParams<SimulatorNodeParams>;
 
-/// The start that the parameters give; what they leave open is drawn from the world's list of
-/// starts, or from all free poses.
+/// The start that the parameters give. What they leave open is drawn from the seed: a place out of
+/// the world's list of starts or, without one, anywhere that the robot fits; one of four headings.
 cmn::Pose2 start_of(const SimulatorNodeParams& own, const cmn::World& world) {
-  std::mt19937_64 rng{own.seed};
-  cmn::Pose2 start = cmn::random_start(world, cmn::read_starts(own.world), rng);
-  start.x = std::isnan(own.start_x) ? start.x : own.start_x;
-  start.y = std::isnan(own.start_y) ? start.y : own.start_y;
-  start.yaw = std::isnan(own.start_yaw_deg) ? start.yaw : own.start_yaw_deg * cmn::kPi / 180.0;
-  return start;
+  std::mt19937 rng{own.seed};
+  std::optional<cmn::Pose2> start =
+      world.random_free_pose(own.simulation.robot.radius_m + 0.05, rng);
+  if (!start) {
+    throw std::runtime_error(own.world + ": the robot fits nowhere in this world");
+  }
+  const std::vector<cmn::Point2> starts = cmn::read_starts(own.world);
+  if (!starts.empty()) {
+    const cmn::Point2 place = starts[rng() % starts.size()];
+    start = cmn::Pose2{place.x, place.y, start->yaw};
+  }
+  return {std::isnan(own.start_x) ? start->x : own.start_x,
+          std::isnan(own.start_y) ? start->y : own.start_y,
+          std::isnan(own.start_yaw_deg) ? start->yaw : own.start_yaw_deg * cmn::kPi / 180.0};
 }
 
 class SimulatorNode {
@@ -204,9 +215,6 @@ int main(int argc, char** argv) {
   try {
     const cmn::World world{cmn::read_map(params.own.world)};
     const cmn::Pose2 start = start_of(params.own, world);
-    if (world.is_in_collision(start.position(), params.own.simulation.robot.radius_m)) {
-      cmn::exit_with({"start_x, start_y: the robot does not fit there without touching a wall"});
-    }
     SimulatorNode{params, world, start}.run();
   } catch (const std::exception& e) {
     cmn::exit_with({e.what()});
