@@ -1,0 +1,74 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/episode.hpp"
+
+#include "coarse_map_nav/motion/motion_controller.hpp"
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+
+namespace cmn {
+namespace {
+
+constexpr double kOdometryPeriod_s = 0.02;
+constexpr int kScanPeriod = 5;  ///< in odometry periods
+
+/// Carries one action out, the guard watching at scan rate as on the robot.
+MotionOutcome carry_out(const Action& action, std::uint32_t id, const ProjectionParams& projection,
+                        const ObstacleGuardParams& guard, bool is_blocked, Simulator& simulator,
+                        MotionController& controller) {
+  RangeProjector projector{projection};
+  controller.start(id, action, simulator.odometry());
+  for (int tick = 1;; ++tick) {
+    if (tick % kScanPeriod == 0) {
+      is_blocked = is_blocked_ahead(projector.project(simulator.scan()), guard);
+    }
+    const MotionStep step =
+        controller.step(simulator.odometry(), is_blocked, simulator.bumped());
+    if (step.result) {
+      return step.result->outcome;
+    }
+    simulator.advance(kOdometryPeriod_s, step.command);
+  }
+}
+
+}  // namespace
+
+EpisodeResult run_episode(const World& world, const SimulationParams& simulation,
+                          const CoarseMap& map, const NavigatorParams& params,
+                          const EpisodeTask& task, std::uint32_t seed) {
+  Simulator simulator{world, simulation, task.T_world_start, seed};
+  Navigator navigator{map, params};
+  MotionController controller{params.motion};
+  EpisodeResult result;
+  if (const auto reason = navigator.planner().set_goal(task.goal_map)) {
+    result.reason = *reason;
+    return result;
+  }
+  for (std::uint32_t id = 1;; ++id) {
+    EpisodeStep step;
+    step.T_world_robot = simulator.truth();
+    step.decision = navigator.step(simulator.scan(), simulator.odometry().T_odom_robot);
+    step.estimate = navigator.filter().estimate();
+    step.confidence = navigator.filter().confidence();
+    step.was_blocked = is_blocked_ahead(navigator.seen(), params.perception.guard);
+    const bool is_over = step.decision.state == NavigationState::kReached ||
+                         step.decision.state == NavigationState::kFailed;
+    if (!is_over) {
+      step.outcome =
+          carry_out(step.decision.action, id, params.perception.local_occupancy,
+                    params.perception.guard, step.was_blocked, simulator, controller);
+    }
+    result.steps.push_back(step);
+    if (is_over) {
+      break;
+    }
+  }
+  result.end = result.steps.back().decision.state;
+  result.reason = result.steps.back().decision.text;
+  result.T_world_end = simulator.truth();
+  result.time_s = simulator.time_s();
+  result.driven_m = simulator.driven_m();
+  result.collisions = simulator.collisions();
+  return result;
+}
+
+}  // namespace cmn
