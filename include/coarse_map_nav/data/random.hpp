@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Draws that are the same with every standard library: the engine is specified, the distributions
-/// of <random> are not.
+/// of C++'s random header are not.
 #pragma once
 
 #include <cmath>
