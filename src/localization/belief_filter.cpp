@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/belief_filter.hpp"
 
+#include "coarse_map_nav/data/random.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
-
-#include "coarse_map_nav/data/random.hpp"
 
 namespace cmn {
 namespace {
@@ -18,8 +18,8 @@ constexpr Estimate kNoEstimate{Heading::kEast, {-1, -1}, 0.0};
 /// One layer's worth of a filter step: out = L * moved(in), over the padded layout.
 ///
 /// `stay` and `come` say, by neighbourhood, what share of a cell's own weight it keeps and what
-/// share of the weight of the cell behind it receives. `extra` is a further factor for each cell, or
-/// null. Returns the sum of `out`.
+/// share of the weight of the cell behind it receives. `extra` is a further factor for each cell,
+/// or null. Returns the sum of `out`.
 struct LayerPass {
   NeighbourhoodTable stay;
   NeighbourhoodTable come;
@@ -144,20 +144,20 @@ double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* lik
     for (unsigned code = 0; code < layer_pass.stay.size(); ++code) {
       const bool is_free = (code & neighbour_bit({0, 0})) == 0;
       const bool may_leave = (code & neighbour_bit(step)) == 0;
-      const double weight = !is_free ? 0.0 : by_code ? (*values)[code] : 1.0;
+      // With the factor in it, the weights stay near 1 in sum however many steps there are.
+      const double weight = !is_free ? 0.0 : belief_.factor() * (by_code ? (*values)[code] : 1.0);
       layer_pass.stay[code] = weight * (may_leave ? 1.0 - shift.share : 1.0);
       layer_pass.come[code] = weight * shift.share;
     }
     total += layer_pass.run(belief_.layer(h), scratch_.layer(h), codes_,
                             step.x + step.y * belief_.stride(), stride, last);
   }
-  const double evidence = total * belief_.factor();
-  if (!(evidence > least) || !std::isfinite(evidence)) {
+  if (!(total > least) || !std::isfinite(total)) {
     return 0.0;
   }
   scratch_.set_factor(1.0 / total);
   std::swap(belief_, scratch_);
-  return evidence;
+  return total;
 }
 
 void BeliefFilter::predict(const Displacement& driven) {
@@ -239,7 +239,8 @@ void BeliefFilter::summarise() {
       const std::vector<double>& layer = belief_.layer(h);
       for (std::size_t i = stride; i < layer.size() - stride; ++i) {
         if (layer[i] >= least && layer[i] > 0.0) {
-          equals.push_back({h, {static_cast<int>(i % stride) - 1, static_cast<int>(i / stride) - 1}});
+          equals.push_back(
+              {h, {static_cast<int>(i % stride) - 1, static_cast<int>(i / stride) - 1}});
         }
       }
     }

@@ -8,9 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include <gtest/gtest.h>
-
 #include "random_case.hpp"
+#include <gtest/gtest.h>
 
 namespace cmn {
 namespace {
@@ -49,6 +48,18 @@ TEST(BeliefFilterProperty, AnyEpisodeKeepsUnitMassOnFreeCells) {
       }
     }
   }
+}
+
+TEST(BeliefFilterProperty, ADayOfObservationsNeitherUnderflowsNorOverflows) {
+  std::mt19937_64 rng{1};
+  BeliefFilter filter{random_map(rng, 8, 7), LocalizationParams{}};
+  for (int i = 0; i < 5000; ++i) {
+    filter.predict({0.4, 0.0, i % 2});
+    filter.correct(random_observation(rng, 6));
+  }
+  EXPECT_NEAR(total(filter.belief()), 1.0, 1e-12);
+  EXPECT_TRUE(filter.confidence() > 0.0 && filter.confidence() <= 1.0 + 1e-12);
+  EXPECT_TRUE(std::isfinite(entropy(filter.belief())));
 }
 
 // The same filter, written down once more as a hidden Markov model over an explicit state list.
