@@ -28,8 +28,15 @@ bool is_zero(const VelocityCommand& command) {
 }  // namespace
 
 bool is_executable(const Action& action) {
-  return action.type != ActionType::kMoveForward ||
-         (std::isfinite(action.distance_m) && action.distance_m >= 0.0);
+  switch (action.type) {
+    case ActionType::kStop:
+    case ActionType::kTurnLeft:
+    case ActionType::kTurnRight:
+      return true;
+    case ActionType::kMoveForward:
+      return std::isfinite(action.distance_m) && action.distance_m >= 0.0;
+  }
+  return false;  // a number from a message that is no action
 }
 
 std::optional<MotionResult> MotionController::start(std::uint32_t id, const Action& action,
