@@ -23,8 +23,8 @@ struct MotionStep {
   std::optional<MotionResult> result;
 };
 
-/// False for an action that nobody can carry out: a forward distance that is negative or not
-/// finite.
+/// False for what nobody can carry out: a type that is none of ActionType (a message may hold any
+/// number), or a forward distance that is negative or not finite.
 bool is_executable(const Action& action);
 
 /// Carries out one action at a time, driven by odometry samples; no clock of its own.

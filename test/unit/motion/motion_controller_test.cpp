@@ -353,6 +353,11 @@ TEST_F(MotionControllerTest, AForwardStepOfNoLengthEndsWhereItIs) {
   EXPECT_EQ(now_.T_odom_robot.x, 0.0);
 }
 
+TEST(ActionCheck, RefusesATypeThatIsNone) {
+  EXPECT_FALSE(is_executable({static_cast<ActionType>(4), 0.0}));
+  EXPECT_FALSE(is_executable({static_cast<ActionType>(255), 0.0}));
+}
+
 TEST(ActionCheck, RefusesDistancesThatNobodyCanDrive) {
   EXPECT_TRUE(is_executable(kForward));
   EXPECT_TRUE(is_executable({ActionType::kTurnLeft, kNan})) << "a turn has no distance";
