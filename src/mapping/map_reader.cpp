@@ -43,7 +43,7 @@ std::string ending_of(const std::string& path) {
 /// Takes keys out of a map_server file and collects all that is wrong with them.
 class KeyReader {
  public:
-  explicit KeyReader(YAML::Node root) : root_{std::move(root)} {}
+  explicit KeyReader(const YAML::Node& root) : root_{root} {}
 
   MapServerKeys read() {
     MapServerKeys keys;
