@@ -49,9 +49,10 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 std::string nearest_of(const std::string& name, const std::set<std::string>& known) {
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
+  const auto nearest =
+      std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+        return edit_distance(name, a) < edit_distance(name, b);
+      });
   return nearest == known.end() || edit_distance(name, *nearest) > name.size() / 2 ? "" : *nearest;
 }
 
@@ -84,8 +85,7 @@ void flatten(const YAML::Node& node, const std::string& prefix, const std::strin
 
 }  // namespace
 
-bool ParamLoader::find_number(const std::string& name, Between range, bool integer,
-                              double& value) {
+bool ParamLoader::find_number(const std::string& name, Between range, bool integer, double& value) {
   const std::string path = prefix_ + name;
   known_.insert(path);
   const auto found = tree_.find(path);

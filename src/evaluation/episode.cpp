@@ -21,8 +21,7 @@ MotionOutcome carry_out(const Action& action, std::uint32_t id, const Projection
     if (tick % kScanPeriod == 0) {
       is_blocked = is_blocked_ahead(projector.project(simulator.scan()), guard);
     }
-    const MotionStep step =
-        controller.step(simulator.odometry(), is_blocked, simulator.bumped());
+    const MotionStep step = controller.step(simulator.odometry(), is_blocked, simulator.bumped());
     if (step.result) {
       return step.result->outcome;
     }
@@ -53,9 +52,8 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
     const bool is_over = step.decision.state == NavigationState::kReached ||
                          step.decision.state == NavigationState::kFailed;
     if (!is_over) {
-      step.outcome =
-          carry_out(step.decision.action, id, params.perception.local_occupancy,
-                    params.perception.guard, step.was_blocked, simulator, controller);
+      step.outcome = carry_out(step.decision.action, id, params.perception.local_occupancy,
+                               params.perception.guard, step.was_blocked, simulator, controller);
     }
     result.steps.push_back(step);
     if (is_over) {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/measurement_model.hpp"
 
+#include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/localization/neighbourhood.hpp"
+
 #include <cassert>
 #include <cmath>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "coarse_map_nav/data/belief.hpp"
-#include "coarse_map_nav/localization/neighbourhood.hpp"
 
 namespace cmn {
 namespace {
@@ -155,7 +155,8 @@ void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading headi
     free_everywhere -= m_hat;
   }
   cv::Mat occupied;
-  cv::Mat(map_.height(), map_.width(), CV_8U, const_cast<std::uint8_t*>(map_.occupied().values().data()))
+  cv::Mat(map_.height(), map_.width(), CV_8U,
+          const_cast<std::uint8_t*>(map_.occupied().values().data()))
       .convertTo(occupied, CV_64F);
   cv::Mat padded;
   cv::copyMakeBorder(occupied, padded, n, n, n, n, cv::BORDER_CONSTANT, 1.0);

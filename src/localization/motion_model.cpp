@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/motion_model.hpp"
 
+#include "coarse_map_nav/data/random.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-
-#include "coarse_map_nav/data/random.hpp"
 
 namespace cmn {
 

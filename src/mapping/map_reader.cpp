@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/map_reader.hpp"
 
+#include "coarse_map_nav/mapping/image_reader.hpp"
+#include "coarse_map_nav/mapping/npy_reader.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -12,9 +15,6 @@
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
-
-#include "coarse_map_nav/mapping/image_reader.hpp"
-#include "coarse_map_nav/mapping/npy_reader.hpp"
 
 namespace cmn {
 namespace {

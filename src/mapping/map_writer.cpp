@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/map_writer.hpp"
 
+#include "coarse_map_nav/mapping/image_reader.hpp"
+
 #include <fstream>
 #include <iomanip>
 #include <limits>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
-
-#include "coarse_map_nav/mapping/image_reader.hpp"
 
 namespace cmn {
 

@@ -3,6 +3,11 @@
 /// \file
 /// Publishes the drawing, latched and as a service, and its named places for rviz.
 
+#include "coarse_map_nav/mapping/map_reader.hpp"
+#include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 #include <exception>
 #include <string>
 
@@ -10,11 +15,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <visualization_msgs/MarkerArray.h>
-
-#include "coarse_map_nav/mapping/map_reader.hpp"
-#include "coarse_map_nav/mapping/places.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 
@@ -55,7 +55,8 @@ visualization_msgs::MarkerArray markers_of(const cmn::MapPlaces& places,
 int main(int argc, char** argv) {
   ros::init(argc, argv, "coarse_map_server");
   ros::NodeHandle nh;
-  const auto params = cmn::load_params_or_exit<cmn::NodeParams<MapServerParams>>(ros::NodeHandle("~"));
+  const auto params =
+      cmn::load_params_or_exit<cmn::NodeParams<MapServerParams>>(ros::NodeHandle("~"));
   if (params.own.map.empty()) {
     cmn::exit_with({"map: name the file of the drawing, for example _map:=maps/home.yaml"});
   }

@@ -3,6 +3,13 @@
 /// \file
 /// local occupancy and odometry -> belief.
 
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/localization/update_gate.hpp"
+#include "coarse_map_nav/ros/belief_publisher.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -18,14 +25,6 @@
 #include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
-
-#include "coarse_map_nav/LocalOccupancy.h"
-#include "coarse_map_nav/MotionResult.h"
-#include "coarse_map_nav/localization/update_gate.hpp"
-#include "coarse_map_nav/ros/belief_publisher.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 
@@ -45,7 +44,8 @@ struct LocalizerNodeParams {
 class LocalizerNode {
  public:
   LocalizerNode()
-      : params_{cmn::load_params_or_exit<cmn::NodeParams<LocalizerNodeParams>>(ros::NodeHandle("~"))},
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<LocalizerNodeParams>>(
+            ros::NodeHandle("~"))},
         gate_{params_.own.gate},
         publisher_{nh_, params_.frames.map},
         observations_{"local_occupancy", 2.0},
@@ -98,10 +98,9 @@ class LocalizerNode {
     }
     std::optional<cmn::Pose2> T_odom_robot;
     try {
-      T_odom_robot = cmn::pose_of(tf_buffer_
-                                      .lookupTransform(params_.frames.odom, msg->header.frame_id,
-                                                       msg->header.stamp)
-                                      .transform);
+      T_odom_robot = cmn::pose_of(
+          tf_buffer_.lookupTransform(params_.frames.odom, msg->header.frame_id, msg->header.stamp)
+              .transform);
     } catch (const tf2::TransformException& e) {
       why = e.what();
     }

@@ -3,6 +3,12 @@
 /// \file
 /// action -> cmd_vel, and what was really driven. Steps once for every odometry message.
 
+#include "coarse_map_nav/DiscreteAction.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/motion/motion_controller.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 #include <optional>
 #include <string>
 
@@ -10,12 +16,6 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
-
-#include "coarse_map_nav/DiscreteAction.h"
-#include "coarse_map_nav/MotionResult.h"
-#include "coarse_map_nav/motion/motion_controller.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 
@@ -48,8 +48,8 @@ class MotionControllerNode {
       diagnostics_.add(input->name(), input, &cmn::InputMonitor::report);
     }
     watchdog_ = nh_.createTimer(ros::Duration(0.1), &MotionControllerNode::on_watchdog, this);
-    diagnostics_timer_ = nh_.createTimer(
-        ros::Duration(1.0), [this](const ros::TimerEvent&) { diagnostics_.update(); });
+    diagnostics_timer_ = nh_.createTimer(ros::Duration(1.0),
+                                         [this](const ros::TimerEvent&) { diagnostics_.update(); });
   }
   ~MotionControllerNode() { cmd_pub_.publish(geometry_msgs::Twist{}); }
 

@@ -3,6 +3,11 @@
 /// \file
 /// sensors -> local occupancy, and whether the way ahead is blocked.
 
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/perception/range_projection.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 #include <optional>
 #include <string>
 
@@ -13,11 +18,6 @@
 #include <std_msgs/Empty.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
-
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
-#include "coarse_map_nav/perception/range_projection.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 
@@ -89,8 +89,8 @@ class PerceptionNode {
 
   std::optional<cmn::Pose2> mount_of(const sensor_msgs::LaserScan& scan) {
     try {
-      const auto transform = tf_buffer_.lookupTransform(
-          params_.frames.base, scan.header.frame_id, scan.header.stamp, ros::Duration(0.0));
+      const auto transform = tf_buffer_.lookupTransform(params_.frames.base, scan.header.frame_id,
+                                                        scan.header.stamp, ros::Duration(0.0));
       if (const auto pose = cmn::pose_of(transform.transform)) {
         return pose;
       }

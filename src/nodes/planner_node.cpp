@@ -3,6 +3,15 @@
 /// \file
 /// belief and goal -> one action at a time. Serves move_base's action and rviz's 2D Nav Goal.
 
+#include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/DiscreteAction.h"
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/NavigationStatus.h"
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/planning/planner.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 #include <deque>
 #include <limits>
 #include <optional>
@@ -15,15 +24,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
-
-#include "coarse_map_nav/Belief.h"
-#include "coarse_map_nav/DiscreteAction.h"
-#include "coarse_map_nav/LocalOccupancy.h"
-#include "coarse_map_nav/NavigationStatus.h"
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
-#include "coarse_map_nav/planning/planner.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 
@@ -51,7 +51,8 @@ class PlannerNode {
     map_sub_ = nh_.subscribe("map", 1, &PlannerNode::on_map, this);
     occupancy_sub_ = nh_.subscribe("local_occupancy", 5, &PlannerNode::on_occupancy, this);
     belief_sub_ = nh_.subscribe("belief", 1, &PlannerNode::on_belief, this);
-    simple_goal_sub_ = nh_.subscribe("move_base_simple/goal", 1, &PlannerNode::on_simple_goal, this);
+    simple_goal_sub_ =
+        nh_.subscribe("move_base_simple/goal", 1, &PlannerNode::on_simple_goal, this);
     server_.registerGoalCallback([this] { on_action_goal(); });
     server_.registerPreemptCallback([this] { on_preempt(); });
     server_.start();

@@ -3,6 +3,12 @@
 /// \file
 /// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world.
 
+#include "coarse_map_nav/mapping/map_reader.hpp"
+#include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/simulation/simulator.hpp"
+
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -22,12 +28,6 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "coarse_map_nav/mapping/map_reader.hpp"
-#include "coarse_map_nav/mapping/places.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
-#include "coarse_map_nav/simulation/simulator.hpp"
-
 namespace {
 
 struct SimulatorNodeParams {
@@ -45,13 +45,16 @@ struct SimulatorNodeParams {
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("world", self.world, cmn::Anything{}, "file of the metric world, map_server yaml");
-    visit("start_x", self.start_x, cmn::Between{-1e6, 1e6}, "[m] start; not given: drawn from the seed");
-    visit("start_y", self.start_y, cmn::Between{-1e6, 1e6}, "[m] start; not given: drawn from the seed");
+    visit("start_x", self.start_x, cmn::Between{-1e6, 1e6},
+          "[m] start; not given: drawn from the seed");
+    visit("start_y", self.start_y, cmn::Between{-1e6, 1e6},
+          "[m] start; not given: drawn from the seed");
     visit("start_yaw_deg", self.start_yaw_deg, cmn::Between{-360.0, 360.0},
           "[deg] start; not given: one of the four headings, drawn from the seed");
     visit("seed", self.seed, cmn::Between{0, 4294967295.0}, "seed of the start, noise and slip");
     visit("speed", self.speed, cmn::Between{0.1, 100.0}, "[-] simulated over real time");
-    visit("odometry_rate", self.odometry_rate, cmn::Between{5.0, 500.0}, "[Hz] odom, TF and /clock");
+    visit("odometry_rate", self.odometry_rate, cmn::Between{5.0, 500.0},
+          "[Hz] odom, TF and /clock");
     visit("scan_rate", self.scan_rate, cmn::Between{0.5, 100.0}, "[Hz] scan");
     visit("command_timeout_s", self.command_timeout_s, cmn::Between{0.05, 10.0},
           "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
@@ -173,9 +176,9 @@ class SimulatorNode {
     msg.header.frame_id = params_.own.laser_frame;
     msg.angle_min = static_cast<float>(scan.angle_min_rad);
     msg.angle_increment = static_cast<float>(scan.angle_increment_rad);
-    msg.angle_max = static_cast<float>(
-        scan.angle_min_rad +
-        scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0));
+    msg.angle_max = static_cast<float>(scan.angle_min_rad +
+                                       scan.angle_increment_rad *
+                                           (static_cast<double>(scan.ranges_m.size()) - 1.0));
     msg.scan_time = static_cast<float>(1.0 / params_.own.scan_rate);
     msg.range_min = static_cast<float>(scan.range_min_m);
     msg.range_max = static_cast<float>(scan.range_max_m);

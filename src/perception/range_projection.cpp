@@ -42,8 +42,8 @@ void RangeProjector::tabulate(const RangeScan& scan) {
       const Point2 p_robot{(ix + 0.5 - 0.5 * params_.size) * cell_m,
                            (iy + 0.5 - 0.5 * params_.size) * cell_m};
       const Point2 p = T_sensor_robot * p_robot;
-      bearings_.push_back({nearest_beam(scan, layout_beams_, std::atan2(p.y, p.x)),
-                           static_cast<float>(norm(p))});
+      bearings_.push_back(
+          {nearest_beam(scan, layout_beams_, std::atan2(p.y, p.x)), static_cast<float>(norm(p))});
     }
   }
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/ros/belief_publisher.hpp"
 
+#include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/ros/conversions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,17 +15,14 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "coarse_map_nav/Belief.h"
-#include "coarse_map_nav/ros/conversions.hpp"
-
 namespace cmn {
 namespace {
 
 constexpr std::array<const char*, 4> kLayerNames{"belief/east", "belief/north", "belief/west",
                                                  "belief/south"};
 
-/// Probabilities as the cells of an occupancy grid: 1 to 98, the greatest of them 98. rviz's costmap
-/// colours run from blue to red over that range and leave 0 clear.
+/// Probabilities as the cells of an occupancy grid: 1 to 98, the greatest of them 98. rviz's
+/// costmap colours run from blue to red over that range and leave 0 clear.
 std::int8_t shade_of(double probability, double greatest) {
   // The square root lets second-best places show beside a sharp peak.
   const double share = greatest > 0.0 ? std::sqrt(probability / greatest) : 0.0;

@@ -4,14 +4,14 @@
 /// Seeded maps, observations and motions for property tests.
 #pragma once
 
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/random.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace cmn {
 

@@ -4,9 +4,9 @@
 /// What the planner orders and what became of it.
 #pragma once
 
-#include <cstdint>
-
 #include "coarse_map_nav/data/geometry.hpp"
+
+#include <cstdint>
 
 namespace cmn {
 

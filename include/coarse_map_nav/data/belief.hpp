@@ -4,13 +4,13 @@
 /// P(heading, cell): where the robot may be on the drawing.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/grid.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace cmn {
 
@@ -34,8 +34,7 @@ class Belief {
  public:
   Belief() = default;
   /// Zero everywhere: not yet a distribution.
-  Belief(int width, int height)
-      : width_{width}, height_{height} {
+  Belief(int width, int height) : width_{width}, height_{height} {
     for (auto& layer : layers_) {
       layer.assign(padded_size(), 0.0);
     }

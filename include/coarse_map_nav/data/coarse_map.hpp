@@ -4,13 +4,13 @@
 /// The drawing that the robot is given.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/grid.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-
-#include "coarse_map_nav/data/geometry.hpp"
-#include "coarse_map_nav/data/grid.hpp"
 
 namespace cmn {
 

@@ -4,11 +4,11 @@
 /// A dense rectangle of values, one per cell.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+
 #include <cassert>
 #include <cstddef>
 #include <vector>
-
-#include "coarse_map_nav/data/geometry.hpp"
 
 namespace cmn {
 

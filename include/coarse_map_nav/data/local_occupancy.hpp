@@ -4,11 +4,11 @@
 /// What the robot sees around itself: the observation of every filter in this package.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "coarse_map_nav/data/geometry.hpp"
 
 namespace cmn {
 

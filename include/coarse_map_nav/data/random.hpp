@@ -5,11 +5,11 @@
 /// of C++'s random header are not.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <random>
-
-#include "coarse_map_nav/data/geometry.hpp"
 
 namespace cmn {
 

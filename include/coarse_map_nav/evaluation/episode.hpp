@@ -4,15 +4,15 @@
 /// One journey in process: the same core that the nodes run, in the simulator, without ROS.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/navigator.hpp"
 #include "coarse_map_nav/params.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 #include "coarse_map_nav/simulation/world.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace cmn {
 

@@ -4,12 +4,6 @@
 /// The discrete Bayes filter on the drawing.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <random>
-#include <vector>
-
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/geometry.hpp"
@@ -18,6 +12,12 @@
 #include "coarse_map_nav/localization/measurement_model.hpp"
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
 
 namespace cmn {
 
@@ -52,9 +52,9 @@ enum class Correction { kApplied, kContradiction, kReopened };
 /// Belief over four headings x all cells: predict (CMN eq. 1), correct (CMN eq. 2 and 3).
 ///
 /// The heading of a layer is that of the odometry axis nearest to the robot, as it would lie on the
-/// drawing: the robot may stand at any yaw, and what is left over to the axis turns the observation.
-/// Mass never enters an occupied cell; mass that faces one stays. After any sequence of calls the
-/// belief sums to 1. One step costs a single pass over the belief.
+/// drawing: the robot may stand at any yaw, and what is left over to the axis turns the
+/// observation. Mass never enters an occupied cell; mass that faces one stays. After any sequence
+/// of calls the belief sums to 1. One step costs a single pass over the belief.
 class BeliefFilter {
  public:
   BeliefFilter(CoarseMap map, const LocalizationParams& params);
@@ -92,9 +92,9 @@ class BeliefFilter {
     double share;
   };
   static std::vector<Shift> shifts(const std::vector<CellStep>& steps);
-  /// Moves every layer and, where a likelihood is given, weighs it, then normalises. The layers have
-  /// been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where it
-  /// does not exceed `least` the belief stays as it was.
+  /// Moves every layer and, where a likelihood is given, weighs it, then normalises. The layers
+  /// have been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where
+  /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
   Correction settle(double evidence);
   void summarise();

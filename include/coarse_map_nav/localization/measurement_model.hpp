@@ -4,14 +4,14 @@
 /// How well what the robot sees fits each cell and heading.
 #pragma once
 
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
 #include <array>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "coarse_map_nav/data/coarse_map.hpp"
-#include "coarse_map_nav/data/local_occupancy.hpp"
-#include "coarse_map_nav/data/param_tree.hpp"
 
 namespace cmn {
 
@@ -25,8 +25,9 @@ struct MeasurementModelParams {
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("type", self.type, OneOf{{"overlap"}}, "overlap: CMN eq. 2");
-    visit("window_reach", self.window_reach, Between{0, 15},
-          "[cells] the compared window of the drawing has n = 2 reach + 1 cells a side (CMN: n = 3)");
+    visit(
+        "window_reach", self.window_reach, Between{0, 15},
+        "[cells] the compared window of the drawing has n = 2 reach + 1 cells a side (CMN: n = 3)");
     visit("window_m", self.window_m, Between{0.1, 50.0},
           "[m] side of the square of the observation that is compared with it (CMN: 1.28)");
     visit("unseen_is_occupied", self.unseen_is_occupied, Anything{},

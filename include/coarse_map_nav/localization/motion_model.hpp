@@ -4,14 +4,14 @@
 /// How far a metre driven is on the drawing.
 #pragma once
 
+#include "coarse_map_nav/data/action.hpp"
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
-
-#include "coarse_map_nav/data/action.hpp"
-#include "coarse_map_nav/data/geometry.hpp"
-#include "coarse_map_nav/data/param_tree.hpp"
 
 namespace cmn {
 

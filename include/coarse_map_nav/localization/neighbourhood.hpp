@@ -4,12 +4,12 @@
 /// All that a filter step needs to know of a cell, in nine bits.
 #pragma once
 
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/geometry.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "coarse_map_nav/data/coarse_map.hpp"
-#include "coarse_map_nav/data/geometry.hpp"
 
 namespace cmn {
 

@@ -4,12 +4,12 @@
 /// Which observations to fold in.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include "coarse_map_nav/data/geometry.hpp"
-#include "coarse_map_nav/data/param_tree.hpp"
 
 namespace cmn {
 

@@ -4,12 +4,12 @@
 /// Image files -> pixels, and pixels -> cells: the flip between rows and cells has its home here.
 #pragma once
 
+#include "coarse_map_nav/data/grid.hpp"
+
 #include <cstdint>
 #include <string>
 
 #include <opencv2/core.hpp>
-
-#include "coarse_map_nav/data/grid.hpp"
 
 namespace cmn {
 

@@ -4,9 +4,9 @@
 /// Files -> CoarseMap. The only place where image rows (downwards) become cells (upwards).
 #pragma once
 
-#include <string>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
+
+#include <string>
 
 namespace cmn {
 

@@ -4,9 +4,9 @@
 /// CoarseMap -> files that map_server, rviz and read_map can read.
 #pragma once
 
-#include <string>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
+
+#include <string>
 
 namespace cmn {
 

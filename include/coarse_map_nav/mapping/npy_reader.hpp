@@ -4,9 +4,9 @@
 /// numpy's .npy files.
 #pragma once
 
-#include <string>
-
 #include "coarse_map_nav/data/grid.hpp"
+
+#include <string>
 
 namespace cmn {
 

@@ -4,10 +4,10 @@
 /// Where a point of the metric world lies on a drawing of wrong proportions.
 #pragma once
 
-#include <vector>
-
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/mapping/places.hpp"
+
+#include <vector>
 
 namespace cmn {
 

@@ -4,10 +4,10 @@
 /// Named places that exist both in a metric world and on a drawing of it.
 #pragma once
 
+#include "coarse_map_nav/data/geometry.hpp"
+
 #include <string>
 #include <vector>
-
-#include "coarse_map_nav/data/geometry.hpp"
 
 namespace cmn {
 

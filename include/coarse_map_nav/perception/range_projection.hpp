@@ -4,13 +4,13 @@
 /// Ranges of a planar sensor -> occupancy around the robot.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace cmn {
 

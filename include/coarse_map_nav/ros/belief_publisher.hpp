@@ -4,14 +4,14 @@
 /// A belief in all the forms that others want it in.
 #pragma once
 
+#include "coarse_map_nav/localization/belief_filter.hpp"
+
 #include <array>
 #include <cstdint>
 #include <string>
 
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-
-#include "coarse_map_nav/localization/belief_filter.hpp"
 
 namespace cmn {
 

@@ -4,6 +4,14 @@
 /// Messages <-> core types. Whatever can be malformed comes back as an optional and a reason.
 #pragma once
 
+#include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/perception/range_projection.hpp"
+
 #include <optional>
 #include <string>
 
@@ -13,14 +21,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Header.h>
-
-#include "coarse_map_nav/Belief.h"
-#include "coarse_map_nav/LocalOccupancy.h"
-#include "coarse_map_nav/data/belief.hpp"
-#include "coarse_map_nav/data/coarse_map.hpp"
-#include "coarse_map_nav/data/geometry.hpp"
-#include "coarse_map_nav/data/local_occupancy.hpp"
-#include "coarse_map_nav/perception/range_projection.hpp"
 
 namespace cmn {
 
@@ -35,8 +35,8 @@ std::optional<Pose2> pose_of(const geometry_msgs::Transform& transform);
 nav_msgs::MapMetaData info_of(const CoarseMap& map);
 /// 0 free, 100 occupied.
 nav_msgs::OccupancyGrid grid_message(const CoarseMap& map);
-/// Values in [0, 50) are free, all others (unknown, -1, too) occupied. Empty, and `why` says what is
-/// wrong, for sizes that disagree, a resolution or origin that is none, no free cell.
+/// Values in [0, 50) are free, all others (unknown, -1, too) occupied. Empty, and `why` says what
+/// is wrong, for sizes that disagree, a resolution or origin that is none, no free cell.
 std::optional<CoarseMap> map_of(const nav_msgs::OccupancyGrid& grid, std::string& why);
 
 coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std_msgs::Header& h);

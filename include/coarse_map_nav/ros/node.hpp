@@ -4,15 +4,15 @@
 /// What every node of the package does alike: parameters, exits, diagnostics.
 #pragma once
 
+#include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/params.hpp"
+
 #include <map>
 #include <string>
 #include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-
-#include "coarse_map_nav/data/param_tree.hpp"
-#include "coarse_map_nav/params.hpp"
 
 namespace cmn {
 

@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include <gtest/gtest.h>
-
 #include "ascii_map.hpp"
+#include <gtest/gtest.h>
 
 namespace cmn {
 namespace {

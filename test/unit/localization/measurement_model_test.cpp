@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/measurement_model.hpp"
 
+#include "coarse_map_nav/localization/neighbourhood.hpp"
+
 #include <cmath>
 #include <numeric>
 
-#include <gtest/gtest.h>
-
-#include "coarse_map_nav/localization/neighbourhood.hpp"
 #include "random_case.hpp"
+#include <gtest/gtest.h>
 
 namespace cmn {
 namespace {
@@ -43,7 +43,8 @@ TEST(Reduce, TurnsTheObservationBackByTheResidualYaw) {
   // A wall ahead of a robot turned 30 degrees left of the axis lies 30 degrees left of it.
   LocalOccupancy seen{128, 0.01};
   const double residual = kPi / 6.0;
-  const Point2 obstacle = turned(Point2{0.43, 0.0}, -residual);  // on the axis, in the robot's frame
+  const Point2 obstacle =
+      turned(Point2{0.43, 0.0}, -residual);  // on the axis, in the robot's frame
   for (int iy = 0; iy < seen.size; ++iy) {
     for (int ix = 0; ix < seen.size; ++ix) {
       const Point2 p{(ix - 63.5) * 0.01, (iy - 63.5) * 0.01};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/map_reader.hpp"
 
+#include "coarse_map_nav/mapping/map_writer.hpp"
+
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -14,8 +16,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
-
-#include "coarse_map_nav/mapping/map_writer.hpp"
 
 namespace cmn {
 namespace {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/npy_reader.hpp"
 
+#include "coarse_map_nav/mapping/map_reader.hpp"
+
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -10,8 +12,6 @@
 #include "file_fixture.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "coarse_map_nav/mapping/map_reader.hpp"
 
 namespace cmn {
 namespace {

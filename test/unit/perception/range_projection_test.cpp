@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/range_projection.hpp"
 
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
-
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
 
 namespace cmn {
 namespace {
@@ -133,7 +133,8 @@ TEST(ObstacleGuard, IsBlockedByAWallInTheFrontBlockOnly) {
   const auto wall_at = [&](double bearing_rad, float range_m) {
     RangeScan walled = scan;
     for (std::size_t i = 0; i < walled.ranges_m.size(); ++i) {
-      const double bearing = walled.angle_min_rad + static_cast<double>(i) * walled.angle_increment_rad;
+      const double bearing =
+          walled.angle_min_rad + static_cast<double>(i) * walled.angle_increment_rad;
       const double off = std::abs(wrap_angle(bearing - bearing_rad));
       if (off < 0.7) {
         walled.ranges_m[i] = range_m / static_cast<float>(std::cos(off));
