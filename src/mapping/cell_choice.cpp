@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/cell_choice.hpp"
 
+#include "coarse_map_nav/mapping/image_reader.hpp"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -9,8 +11,6 @@
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
-
-#include "coarse_map_nav/mapping/image_reader.hpp"
 
 namespace cmn {
 namespace {

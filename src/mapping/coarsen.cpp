@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/coarsen.hpp"
 
+#include "coarse_map_nav/mapping/cell_choice.hpp"
+#include "coarse_map_nav/mapping/free_pieces.hpp"
+#include "coarse_map_nav/mapping/image_reader.hpp"
+
 #include <stdexcept>
 #include <string>
 
 #include <opencv2/imgproc.hpp>
-
-#include "coarse_map_nav/mapping/cell_choice.hpp"
-#include "coarse_map_nav/mapping/free_pieces.hpp"
-#include "coarse_map_nav/mapping/image_reader.hpp"
 
 namespace cmn {
 namespace {

@@ -4,13 +4,13 @@
 /// Which patch of free space each coarse cell stands for.
 #pragma once
 
+#include "coarse_map_nav/data/grid.hpp"
+#include "coarse_map_nav/mapping/free_pieces.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
-
-#include "coarse_map_nav/data/grid.hpp"
-#include "coarse_map_nav/mapping/free_pieces.hpp"
 
 namespace cmn {
 

@@ -4,10 +4,10 @@
 /// Fine occupancy -> coarse cells, without closing doors or opening walls.
 #pragma once
 
-#include <cstdint>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/grid.hpp"
+
+#include <cstdint>
 
 namespace cmn {
 

@@ -4,10 +4,10 @@
 /// The free space of a fine grid, cut up by coarse cells.
 #pragma once
 
+#include "coarse_map_nav/data/grid.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "coarse_map_nav/data/grid.hpp"
 
 namespace cmn {
 
