@@ -26,8 +26,9 @@ class Navigator {
   Planner& planner() { return planner_; }
   const LocalOccupancy& seen() const { return seen_; }
 
-  /// `scan` was taken at `T_odom_robot`, after the last action had ended.
-  Decision step(const RangeScan& scan, const Pose2& T_odom_robot) {
+  /// `scan` was taken at `T_odom_robot`, after the last action had ended with `last_outcome`.
+  Decision step(const RangeScan& scan, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
+    planner_.action_ended(last_outcome);
     seen_ = projector_.project(scan);
     filter_.update(seen_, T_odom_robot);
     return planner_.decide(

@@ -25,6 +25,16 @@
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
+#include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/DiscreteAction.h"
+#include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/NavigationStatus.h"
+#include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/planning/planner.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 namespace {
 
 using State = cmn::NavigationState;
@@ -50,6 +60,7 @@ class PlannerNode {
     goal_pub_ = nh_.advertise<geometry_msgs::PoseStamped>("goal", 1, true);
     map_sub_ = nh_.subscribe("map", 1, &PlannerNode::on_map, this);
     occupancy_sub_ = nh_.subscribe("local_occupancy", 5, &PlannerNode::on_occupancy, this);
+    result_sub_ = nh_.subscribe("motion_result", 5, &PlannerNode::on_result, this);
     belief_sub_ = nh_.subscribe("belief", 1, &PlannerNode::on_belief, this);
     simple_goal_sub_ =
         nh_.subscribe("move_base_simple/goal", 1, &PlannerNode::on_simple_goal, this);
@@ -143,6 +154,12 @@ class PlannerNode {
     recent_.push_back(msg);
     if (recent_.size() > 30) {
       recent_.pop_front();
+    }
+  }
+
+  void on_result(const coarse_map_nav::MotionResult& result) {
+    if (planner_ && result.id == action_.id) {
+      planner_->action_ended(static_cast<cmn::MotionOutcome>(result.outcome));
     }
   }
 
@@ -279,6 +296,7 @@ class PlannerNode {
   ros::Publisher goal_pub_;
   ros::Subscriber map_sub_;
   ros::Subscriber occupancy_sub_;
+  ros::Subscriber result_sub_;
   ros::Subscriber belief_sub_;
   ros::Subscriber simple_goal_sub_;
   diagnostic_updater::Updater diagnostics_;

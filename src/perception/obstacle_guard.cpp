@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cmn {
 
-double occupied_share_ahead(const LocalOccupancy& seen) {
-  const int third = seen.size / 3;
+double occupied_share_ahead(const LocalOccupancy& seen, double side_m) {
+  const double half = 0.5 * std::min(side_m / seen.resolution, static_cast<double>(seen.size));
+  const auto cell_at = [&](double from_middle) {
+    return static_cast<int>(std::lround(0.5 * seen.size + from_middle));
+  };
   int cells = 0;
   int occupied = 0;
-  for (int iy = third; iy < seen.size - third; ++iy) {
-    for (int ix = seen.size - third; ix < seen.size; ++ix) {
+  for (int iy = cell_at(-half / 3.0); iy < cell_at(half / 3.0); ++iy) {
+    for (int ix = cell_at(half / 3.0); ix < cell_at(half); ++ix) {
       ++cells;
       occupied += seen.occupancy[seen.index_of(ix, iy)] > 0.5F;
     }
@@ -18,7 +24,7 @@ double occupied_share_ahead(const LocalOccupancy& seen) {
 }
 
 bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params) {
-  return occupied_share_ahead(seen) > params.occupied_share;
+  return occupied_share_ahead(seen, params.side_m) > params.occupied_share;
 }
 
 }  // namespace cmn

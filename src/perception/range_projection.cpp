@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/range_projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -67,7 +68,8 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const auto range_max_m = static_cast<float>(scan.range_max_m);
-  const auto diagonal_m = static_cast<float>(std::sqrt(2.0) * params_.side_m / params_.size);
+  const double diagonal_m = std::sqrt(2.0) * params_.side_m / params_.size;
+  const auto wall_m = static_cast<float>(std::max(params_.wall_m, diagonal_m));
   std::vector<Beam> beams;
   beams.reserve(scan.ranges_m.size());
   BeamCount seen;
@@ -79,7 +81,7 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
       beams.push_back({range_max_m, -kInfinity});
       ++seen.used;
     } else {
-      beams.push_back({range_m, range_m + diagonal_m});
+      beams.push_back({range_m, range_m + wall_m});
       ++seen.used;
     }
   }

@@ -88,6 +88,7 @@ std::optional<std::string> Planner::set_goal(Point2 goal_map) {
   goal_ = cell;
   cost_to_go_ = CostToGo{map_, cell};
   actions_ = 0;
+  is_stuck_ = false;
   end_.reset();
   policy_->reset();
   return std::nullopt;
@@ -164,7 +165,7 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
                         ? std::string{"."}
                         : ", by the estimate " + text_of(distance_m, 1) + " m before the goal."));
   }
-  return act(localization, is_blocked_ahead, distance_m);
+  return act(localization, is_blocked_ahead || is_stuck_, distance_m);
 }
 
 Decision Planner::act(const Localization& localization, bool is_blocked_ahead, double distance_m) {
@@ -177,6 +178,7 @@ Decision Planner::act(const Localization& localization, bool is_blocked_ahead, d
   if (decision.action.type == ActionType::kMoveForward) {
     decision.action.distance_m = params_.step_m;
   }
+  last_action_ = decision.action.type;
   ++actions_;
 
   const std::string doing =

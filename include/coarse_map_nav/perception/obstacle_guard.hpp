@@ -10,20 +10,24 @@
 namespace cmn {
 
 struct ObstacleGuardParams {
+  double side_m = 1.28;          ///< Robb: of the papers' local occupancy
   double occupied_share = 0.25;  ///< Robb: "more than 25 % occupied"
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
+    visit("side_m", self.side_m, Between{0.3, 5.0},
+          "[m] side of the square about the robot whose front block is watched");
     visit("occupied_share", self.occupied_share, Between{0.0, 1.0},
           "[-] the way ahead is blocked when more than this share of the front block is occupied");
   }
 };
 
-/// The share of the front middle block, a third of the square each way, that is occupied.
+/// The share of the front middle block that is occupied: a third each way of the square of `side_m`
+/// about the robot, or of all that was seen when that is smaller.
 ///
 /// Cells about which nothing is known do not count as occupied: a LiDAR that does not look ahead
 /// cannot guard, and the caller learns that from its field of view, not from a robot that stands
 /// still. Occupied beyond a hit does count (Robb: everything beyond is occupied).
-double occupied_share_ahead(const LocalOccupancy& seen);
+double occupied_share_ahead(const LocalOccupancy& seen, double side_m);
 
 /// Robb: the front block is more than `occupied_share` occupied.
 bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params);

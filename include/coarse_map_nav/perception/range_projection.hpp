@@ -31,10 +31,13 @@ struct RangeScan {
 struct ProjectionParams {
   int size = 128;        ///< CMN: 128 x 128 ...
   double side_m = 1.28;  ///< ... over 1.28 m
+  double wall_m = 0.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("size", self.size, Between{3, 1024}, "[cells] side of the local occupancy grid");
     visit("side_m", self.side_m, Between{0.1, 50.0}, "[m] side of the local occupancy grid");
+    visit("wall_m", self.wall_m, Between{0.0, 2.0},
+          "[m] behind a hit so much, at least one cell, is taken as seen to be occupied");
   }
 };
 

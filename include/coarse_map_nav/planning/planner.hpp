@@ -100,9 +100,14 @@ class Planner {
   void cancel_goal();
   std::optional<Cell> goal() const { return goal_; }
 
+  /// How the action that was last decided on ended. A step forward that ended blocked leaves the way
+  /// ahead blocked until the robot has turned, whatever the guard sees: a thin leg or the edge of a
+  /// door fills too little of the front block.
+  void action_ended(MotionOutcome outcome) {
+    is_stuck_ = last_action_ == ActionType::kMoveForward && outcome == MotionOutcome::kBlocked;
+  }
   /// One decision; counts the actions since the goal was set. `is_blocked_ahead` is the obstacle
-  /// guard's word, or that the last step forward ended blocked: until it turns, the robot cannot go
-  /// forward.
+  /// guard's word.
   Decision decide(const Localization& localization, bool is_blocked_ahead);
   /// The cells from `from` to the goal along the least cost; empty when there is no way or no goal.
   std::vector<Cell> path_from(Cell from) const;
@@ -124,6 +129,8 @@ class Planner {
   std::optional<Cell> goal_;
   CostToGo cost_to_go_;
   int actions_ = 0;
+  ActionType last_action_ = ActionType::kStop;
+  bool is_stuck_ = false;
   std::optional<Decision> end_;
 };
 
