@@ -168,12 +168,14 @@ void BeliefFilter::predict(const Displacement& driven) {
   summarise();
 }
 
-Correction BeliefFilter::correct(const LocalOccupancy& seen, double residual_yaw_rad) {
-  const Likelihood& likelihood = measurement_->measure(seen, residual_yaw_rad);
+Correction BeliefFilter::correct(const LocalOccupancy& seen, double residual_yaw_rad,
+                                 double weight) {
+  const Likelihood& likelihood = measurement_->measure(seen, residual_yaw_rad, weight);
   return settle(apply({0, 0.0}, 0, &likelihood, params_.contradiction_evidence));
 }
 
 Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
+  const bool is_first = !T_odom_last_;
   const Displacement driven =
       T_odom_last_ ? displacement(*T_odom_last_, T_odom_robot) : Displacement{};
   T_odom_last_ = T_odom_robot;
@@ -186,13 +188,19 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
     apply(moves[i], driven.quarter_turns, nullptr, 0.0);
   }
-  const Likelihood& likelihood = measurement_->measure(seen, residual_yaw(T_odom_robot));
+  const Likelihood& likelihood = 
+      measurement_->measure(seen, residual_yaw(T_odom_robot), is_first ? 1.0 : news_in(driven));
   const double evidence =
       apply(moves.back(), driven.quarter_turns, &likelihood, params_.contradiction_evidence);
   if (evidence == 0.0) {
     apply(moves.back(), driven.quarter_turns, nullptr, 0.0);
   }
   return settle(evidence);
+}
+
+double BeliefFilter::news_in(const Displacement& driven) const {
+  const double way_m = std::hypot(driven.forward_m, driven.left_m);
+  return way_m >= params_.independence_m ? 1.0 : way_m / params_.independence_m;
 }
 
 Correction BeliefFilter::settle(double evidence) {

@@ -107,19 +107,21 @@ OverlapModel::OverlapModel(const CoarseMap& map, const MeasurementModelParams& p
   }
 }
 
-const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double residual_yaw_rad) {
+const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double residual_yaw_rad,
+                                        double weight) {
   const std::vector<double> window = reduce(seen, params_, residual_yaw_rad);
   for (const Heading h : kHeadings) {
     if (likelihood_.is_by_neighbourhood) {
-      fill_by_neighbourhood(window, h);
+      fill_by_neighbourhood(window, h, weight * params_.exponent);
     } else {
-      fill_by_cell(window, h);
+      fill_by_cell(window, h, weight * params_.exponent);
     }
   }
   return likelihood_;
 }
 
-void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Heading heading) {
+void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Heading heading,
+                                         double exponent) {
   // |m_hat - m| is m_hat where the map is free and 1 - m_hat where it is occupied: linear in the
   // map's bits, so each code follows from the one without its highest bit.
   std::vector<double>& table = likelihood_.values[static_cast<std::size_t>(index(heading))];
@@ -140,11 +142,12 @@ void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Head
   }
   for (double& likelihood : table) {
     // The sums above may leave -1e-17 where 0 is meant.
-    likelihood = power(likelihood > 1e-15 ? likelihood : 0.0, params_.exponent);
+    likelihood = power(likelihood > 1e-15 ? likelihood : 0.0, exponent);
   }
 }
 
-void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading) {
+void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading,
+                                         double exponent) {
   const int n = params_.window_cells();
   cv::Mat kernel(n, n, CV_64F);
   double free_everywhere = n * n;
@@ -168,7 +171,7 @@ void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading headi
   for (int y = 0; y < map_.height(); ++y) {
     for (int x = 0; x < map_.width(); ++x) {
       const double value = likelihood.at<double>(y + n, x + n);
-      values[layout.padded_index({x, y})] = power(value > 1e-15 ? value : 0.0, params_.exponent);
+      values[layout.padded_index({x, y})] = power(value > 1e-15 ? value : 0.0, exponent);
     }
   }
 }

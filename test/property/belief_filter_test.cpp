@@ -293,7 +293,7 @@ TEST(BeliefFilterProperty, TheTableOfNeighbourhoodsEqualsTheCorrelation) {
     const LocalOccupancy seen = random_observation(rng, 3);
     MeasurementModelParams params;
     OverlapModel model{map, params};
-    const Likelihood& by_code = model.measure(seen, 0.0);
+    const Likelihood& by_code = model.measure(seen, 0.0, 1.0);
     ASSERT_TRUE(by_code.is_by_neighbourhood);
     const std::vector<std::uint16_t> codes = neighbourhood_codes(map);
     const std::vector<double> window = reduce(seen, params, 0.0);

@@ -24,6 +24,7 @@ namespace cmn {
 struct LocalizationParams {
   MotionModelParams motion;
   MeasurementModelParams measurement;
+  double independence_m = 0.0;
   double converged_confidence = 0.5;
   double contradiction_evidence = 1e-6;
   int reopen_after = 3;
@@ -33,6 +34,9 @@ struct LocalizationParams {
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("motion", self.motion);
     visit.group("measurement", self.measurement);
+    visit("independence_m", self.independence_m, Between{0.0, 10.0},
+          "[m] looks so far apart are independent evidence, nearer ones count in proportion; "
+          "0: every look counts in full (CMN, Robb)");
     visit("converged_confidence", self.converged_confidence, Between{0.0, 1.0},
           "[-] converged when so much of the belief is within 1 m of the estimate, at its heading");
     visit("contradiction_evidence", self.contradiction_evidence, Between{0.0, 1.0},
@@ -73,7 +77,9 @@ class BeliefFilter {
 
   // The two halves of update().
   void predict(const Displacement& driven);
-  Correction correct(const LocalOccupancy& seen, double residual_yaw_rad = 0.0);
+  /// `weight`: how much of the look is news, see LocalizationParams::independence_m.
+  Correction correct(const LocalOccupancy& seen, double residual_yaw_rad = 0.0,
+                     double weight = 1.0);
 
   const CoarseMap& map() const { return map_; }
   const Belief& belief() const { return belief_; }
@@ -97,6 +103,7 @@ class BeliefFilter {
   /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
   Correction settle(double evidence);
+  double news_in(const Displacement& driven) const;
   void summarise();
   CoarseMap map_;
   LocalizationParams params_;

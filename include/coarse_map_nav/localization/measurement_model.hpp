@@ -51,8 +51,10 @@ class MeasurementModel {
   virtual ~MeasurementModel() = default;
   /// `residual_yaw_rad`: how far the robot is turned from the nearest odometry axis; the
   /// observation is turned back by it, so that headings are those of the axes.
+  /// `weight` in [0, 1]: how much of this look is news; the likelihood is raised to it.
   /// The result is good until the next call.
-  virtual const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad) = 0;
+  virtual const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad,
+                                    double weight) = 0;
 };
 
 /// The observation averaged down to n^2 values in [0, 1], x fastest, in the axes of
@@ -67,11 +69,12 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
 class OverlapModel : public MeasurementModel {
  public:
   OverlapModel(const CoarseMap& map, const MeasurementModelParams& params);
-  const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad) override;
+  const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad,
+                            double weight) override;
 
  private:
-  void fill_by_neighbourhood(const std::vector<double>& window, Heading heading);
-  void fill_by_cell(const std::vector<double>& window, Heading heading);
+  void fill_by_neighbourhood(const std::vector<double>& window, Heading heading, double exponent);
+  void fill_by_cell(const std::vector<double>& window, Heading heading, double exponent);
 
   MeasurementModelParams params_;
   CoarseMap map_;
