@@ -10,22 +10,32 @@
 
 #include <exception>
 #include <string>
+#include <utility>
 
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include "coarse_map_nav/mapping/map_reader.hpp"
+#include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/mapping/regions.hpp"
+#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+
 namespace {
 
 struct MapServerParams {
   std::string map;
   double resolution = 0.4;
+  bool close_pockets = true;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("map", self.map, cmn::Anything{}, "file of the drawing: .yaml (map_server), .npy, image");
     visit("resolution", self.resolution, cmn::Between{0.01, 10.0},
           "[m/cell] nominal, for files that do not say");
+    visit("close_pockets", self.close_pockets, cmn::Anything{},
+          "take free cells that are not joined to the largest free region as occupied");
   }
 };
 
@@ -64,7 +74,14 @@ int main(int argc, char** argv) {
   nav_msgs::OccupancyGrid grid;
   cmn::MapPlaces places;
   try {
-    grid = cmn::grid_message(cmn::read_map(params.own.map, params.own.resolution));
+    cmn::CoarseMap map = cmn::read_map(params.own.map, params.own.resolution);
+    if (params.own.close_pockets) {
+      cmn::LargestRegion region = cmn::largest_region(map);
+      ROS_INFO_STREAM_COND(region.closed_cells > 0,
+                           region.closed_cells << " free cells in closed pockets are left out");
+      map = std::move(region.map);
+    }
+    grid = cmn::grid_message(map);
     places = cmn::read_places(params.own.map);
   } catch (const std::exception& e) {
     cmn::exit_with({e.what()});
