@@ -46,17 +46,16 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
   for (std::uint32_t id = 1;; ++id) {
     EpisodeStep step;
     step.T_world_robot = simulator.truth();
-    step.decision = navigator.step(simulator.scan(), simulator.odometry().T_odom_robot,
-                                   last_outcome);
+    step.decision =
+        navigator.step(simulator.scan(), simulator.odometry().T_odom_robot, last_outcome);
     step.estimate = navigator.filter().estimate();
     step.confidence = navigator.filter().confidence();
     step.was_blocked = is_blocked_ahead(navigator.seen(), params.perception.guard);
     const bool is_over = step.decision.state == NavigationState::kReached ||
                          step.decision.state == NavigationState::kFailed;
     if (!is_over) {
-      step.outcome =
-          carry_out(step.decision.action, id, params.perception.local_occupancy,
-                    params.perception.guard, step.was_blocked, simulator, controller);
+      step.outcome = carry_out(step.decision.action, id, params.perception.local_occupancy,
+                               params.perception.guard, step.was_blocked, simulator, controller);
       last_outcome = step.outcome;
     }
     result.steps.push_back(step);

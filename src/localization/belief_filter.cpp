@@ -188,7 +188,7 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
     apply(moves[i], driven.quarter_turns, nullptr, 0.0);
   }
-  const Likelihood& likelihood = 
+  const Likelihood& likelihood =
       measurement_->measure(seen, residual_yaw(T_odom_robot), is_first ? 1.0 : news_in(driven));
   const double evidence =
       apply(moves.back(), driven.quarter_turns, &likelihood, params_.contradiction_evidence);

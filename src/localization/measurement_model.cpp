@@ -147,7 +147,7 @@ void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Head
 }
 
 void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading,
-                                         double exponent) {
+                                double exponent) {
   const int n = params_.window_cells();
   cv::Mat kernel(n, n, CV_64F);
   double free_everywhere = n * n;

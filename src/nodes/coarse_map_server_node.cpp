@@ -5,6 +5,7 @@
 
 #include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/mapping/regions.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 
@@ -16,12 +17,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <visualization_msgs/MarkerArray.h>
-
-#include "coarse_map_nav/mapping/map_reader.hpp"
-#include "coarse_map_nav/mapping/places.hpp"
-#include "coarse_map_nav/mapping/regions.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "coarse_map_nav/Belief.h"
 #include "coarse_map_nav/DiscreteAction.h"
 #include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/MotionResult.h"
 #include "coarse_map_nav/NavigationStatus.h"
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
@@ -24,16 +25,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
-
-#include "coarse_map_nav/Belief.h"
-#include "coarse_map_nav/DiscreteAction.h"
-#include "coarse_map_nav/LocalOccupancy.h"
-#include "coarse_map_nav/MotionResult.h"
-#include "coarse_map_nav/NavigationStatus.h"
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
-#include "coarse_map_nav/planning/planner.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
-#include "coarse_map_nav/ros/node.hpp"
 
 namespace {
 

@@ -4,9 +4,9 @@
 /// What hangs together on a drawing.
 #pragma once
 
-#include <cstddef>
-
 #include "coarse_map_nav/data/coarse_map.hpp"
+
+#include <cstddef>
 
 namespace cmn {
 

@@ -100,9 +100,9 @@ class Planner {
   void cancel_goal();
   std::optional<Cell> goal() const { return goal_; }
 
-  /// How the action that was last decided on ended. A step forward that ended blocked leaves the way
-  /// ahead blocked until the robot has turned, whatever the guard sees: a thin leg or the edge of a
-  /// door fills too little of the front block.
+  /// How the action that was last decided on ended. A step forward that ended blocked leaves the
+  /// way ahead blocked until the robot has turned, whatever the guard sees: a thin leg or the edge
+  /// of a door fills too little of the front block.
   void action_ended(MotionOutcome outcome) {
     is_stuck_ = last_action_ == ActionType::kMoveForward && outcome == MotionOutcome::kBlocked;
   }

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/regions.hpp"
 
-#include <gtest/gtest.h>
-
 #include "ascii_map.hpp"
+#include <gtest/gtest.h>
 
 namespace cmn {
 namespace {
