@@ -101,7 +101,9 @@ double World::cast(Point2 origin, Point2 direction, double reach_m) const {
   const int ahead_y = d.y > 0.0 ? 1 : 0;
   const double inverse_x = 1.0 / d.x;
   const double inverse_y = 1.0 / d.y;
-  // The way to the next border between columns and between rows.
+  // The way to the next border between columns and between rows. Along a border it may lie behind:
+  // who stands on it (52.0) with the smallest of leanings over it (-1e-17) stays on it, in numbers,
+  // however far he goes. Never go back to it: a leap would begin again, for ever.
   const auto next_x = [&] { return d.x == 0.0 ? kInfinity : (cell.x + ahead_x - p.x) * inverse_x; };
   const auto next_y = [&] { return d.y == 0.0 ? kInfinity : (cell.y + ahead_y - p.y) * inverse_y; };
 
@@ -120,11 +122,11 @@ double World::cast(Point2 origin, Point2 direction, double reach_m) const {
       way_x = next_x();
       way_y = next_y();
     } else if (way_x < way_y) {
-      way = way_x;
+      way = std::max(way, way_x);
       cell.x += 2 * ahead_x - 1;
       way_x = next_x();
     } else {
-      way = way_y;
+      way = std::max(way, way_y);
       cell.y += 2 * ahead_y - 1;
       way_y = next_y();
     }

@@ -3,8 +3,10 @@
 #include "coarse_map_nav/simulation/world.hpp"
 
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "ascii_map.hpp"
 #include <gtest/gtest.h>
@@ -37,6 +39,32 @@ TEST(World, SeesNothingBeyondTheReach) {
   const World world{room()};
   EXPECT_TRUE(std::isinf(world.cast({1.5, 1.5}, {1.0, 0.0}, 3.4)));
   EXPECT_DOUBLE_EQ(world.cast({1.5, 1.5}, {1.0, 0.0}, 3.6), 3.5);
+}
+
+// Along a border either side may be the one that is hit.
+TEST(World, ComesToAnEndAlongTheBorderBetweenCells) {
+  std::mt19937 rng{1};
+  std::vector<std::string> rows(30, std::string(30, '.'));
+  for (std::string& row : rows) {
+    for (char& cell : row) {
+      cell = rng() % 50 == 0 ? '#' : '.';
+    }
+  }
+  const World world{ascii_map(rows)};
+  for (int x = 1; x < 30; ++x) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      SCOPED_TRACE(std::to_string(x) + " " + std::to_string(quarter));
+      const double yaw = quarter * kPi / 2.0;  // its sine and cosine miss 0 by about 1e-16
+      const Point2 ahead{std::cos(yaw), std::sin(yaw)};
+      const Point2 aside{-1e-3 * ahead.y, 1e-3 * ahead.x};
+      const Point2 from{static_cast<double>(x), static_cast<double>(x)};
+      const double left = world.cast({from.x + aside.x, from.y + aside.y}, ahead, 40.0);
+      const double right = world.cast({from.x - aside.x, from.y - aside.y}, ahead, 40.0);
+      const double along = world.cast(from, ahead, 40.0);
+      EXPECT_TRUE(std::abs(along - left) < 1e-2 || std::abs(along - right) < 1e-2)
+          << along << " is neither " << left << " nor " << right;
+    }
+  }
 }
 
 TEST(World, IsSolidInsideWallsAndOutsideOfTheMap) {
