@@ -122,7 +122,7 @@ double World::cast(Point2 origin, Point2 direction, double reach_m) const {
       way_x = next_x();
       way_y = next_y();
     } else if (way_x < way_y) {
-      way = std::max(way, way_x);
+      way = std::max(way, way_x);  // a leap may land just before a border it had passed
       cell.x += 2 * ahead_x - 1;
       way_x = next_x();
     } else {

@@ -35,6 +35,19 @@ TEST(World, MeasuresFromThePointToTheFaceOfTheWall) {
               1e-12);
 }
 
+TEST(World, CastsFromExactlyABorderAlmostAlongIt) {
+  // cos(pi / 2) is 6e-17: the ray leaves its column at once and, far away, has not moved across.
+  CoarseMap hall = CoarseMap{Grid<std::uint8_t>{40, 40}, 0.05};
+  const World world{hall};
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double angle = quarter * kPi / 2.0;
+    for (const double sign : {1.0, -1.0}) {
+      const Point2 direction{sign * std::cos(angle), sign * std::sin(angle)};
+      EXPECT_NEAR(world.cast({1.0, 1.0}, direction, 10.0), 1.0, 1e-9) << angle;
+    }
+  }
+}
+
 TEST(World, SeesNothingBeyondTheReach) {
   const World world{room()};
   EXPECT_TRUE(std::isinf(world.cast({1.5, 1.5}, {1.0, 0.0}, 3.4)));
