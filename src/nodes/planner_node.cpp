@@ -204,6 +204,7 @@ class PlannerNode {
   }
 
   void end(const cmn::Decision& decision) {
+    publish_status(decision, belief_ ? static_cast<double>(belief_->confidence) : 0.0);
     is_under_way_ = false;
     ros::NodeHandle("~").deleteParam(kResume);
     if (planner_) {
@@ -212,7 +213,6 @@ class PlannerNode {
     action_.type = coarse_map_nav::DiscreteAction::STOP;
     action_.id = 0;
     action_pub_.publish(action_);
-    publish_status(decision, belief_ ? static_cast<double>(belief_->confidence) : 0.0);
   }
 
   /// What the guard says of the observation that the belief was made from.
