@@ -114,6 +114,12 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   }
 }
 
+void write_picture(const std::filesystem::path& path, const cv::Mat& picture) {
+  if (!cv::imwrite(path.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+}
+
 void write_results(const Recording& recording, const std::string& out, const std::string& title,
                    const std::optional<cmn::CoarseMap>& map) {
   const auto errors = cmn::errors_of(recording.beliefs, recording.truth);
@@ -130,9 +136,9 @@ void write_results(const Recording& recording, const std::string& out, const std
   std::filesystem::create_directories(folder);
   write_file(folder / "error.csv", cmn::csv_of(errors));
   write_file(folder / "summary.txt", summary);
-  cv::imwrite((folder / "error.png").string(), cmn::error_plot(errors, title));
+  write_picture(folder / "error.png", cmn::error_plot(errors, title));
   if (map) {
-    cv::imwrite((folder / "track.png").string(), cmn::track_plot(errors, *map));
+    write_picture(folder / "track.png", cmn::track_plot(errors, *map));
   }
   std::cout << "written: " << out << "/error.csv, summary.txt, error.png"
             << (map ? ", track.png" : "") << std::endl;
