@@ -129,9 +129,10 @@ cv::Mat error_plot(const std::vector<LocalizationError>& errors, const std::stri
   }
   draw_axes(image, error_panel, "distance of the estimate from the truth [m]; dashed: 1 m", false);
   draw_axes(image, confidence_panel, "confidence", true);
-  for (double t = 0.0; t < duration; t += duration / 60.0) {
+  for (double t = 0.0; t < 0.999 * duration; t += duration / 60.0) {
     cv::line(image, error_panel.at(t, kRightWithin_m),
-             error_panel.at(t + duration / 120.0, kRightWithin_m), kRight, 1, cv::LINE_AA);
+             error_panel.at(std::min(t + duration / 120.0, duration), kRightWithin_m), kRight, 1,
+             cv::LINE_AA);
   }
   draw_curve(image, error_panel, errors, [](const auto& e) { return e.distance_m; });
   draw_curve(image, confidence_panel, errors, [](const auto& e) { return e.belief.confidence; });
