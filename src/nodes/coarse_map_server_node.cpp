@@ -8,6 +8,7 @@
 #include "coarse_map_nav/mapping/regions.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <exception>
 #include <string>
@@ -19,20 +20,6 @@
 #include <visualization_msgs/MarkerArray.h>
 
 namespace {
-
-struct MapServerParams {
-  std::string map;
-  double resolution = 0.4;
-  bool close_pockets = true;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("map", self.map, cmn::Anything{}, "file of the drawing: .yaml (map_server), .npy, image");
-    visit("resolution", self.resolution, cmn::Between{0.01, 10.0},
-          "[m/cell] nominal, for files that do not say");
-    visit("close_pockets", self.close_pockets, cmn::Anything{},
-          "take free cells that are not joined to the largest free region as occupied");
-  }
-};
 
 visualization_msgs::MarkerArray markers_of(const cmn::MapPlaces& places,
                                            const std_msgs::Header& header) {
@@ -61,7 +48,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "coarse_map_server");
   ros::NodeHandle nh;
   const auto params =
-      cmn::load_params_or_exit<cmn::NodeParams<MapServerParams>>(ros::NodeHandle("~"));
+      cmn::load_params_or_exit<cmn::NodeParams<cmn::MapServerParams>>(ros::NodeHandle("~"));
   if (params.own.map.empty()) {
     cmn::exit_with({"map: name the file of the drawing, for example _map:=maps/home.yaml"});
   }

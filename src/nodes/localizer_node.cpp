@@ -9,6 +9,7 @@
 #include "coarse_map_nav/ros/belief_publisher.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <cmath>
 #include <optional>
@@ -30,21 +31,10 @@ namespace {
 
 using Occupancy = coarse_map_nav::LocalOccupancy;
 
-struct LocalizerNodeParams {
-  cmn::UpdateGateParams gate;
-  double transform_tolerance_s = 0.5;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    cmn::UpdateGateParams::visit_params(self.gate, visit);
-    visit("transform_tolerance_s", self.transform_tolerance_s, cmn::Between{0.0, 10.0},
-          "[s] map -> odom is stamped so far ahead of the observation (as amcl's)");
-  }
-};
-
 class LocalizerNode {
  public:
   LocalizerNode()
-      : params_{cmn::load_params_or_exit<cmn::NodeParams<LocalizerNodeParams>>(
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::LocalizerNodeParams>>(
             ros::NodeHandle("~"))},
         gate_{params_.own.gate},
         publisher_{nh_, params_.frames.map},
@@ -186,7 +176,7 @@ class LocalizerNode {
   }
 
   ros::NodeHandle nh_;
-  cmn::NodeParams<LocalizerNodeParams> params_;
+  cmn::NodeParams<cmn::LocalizerNodeParams> params_;
   std::optional<cmn::BeliefFilter> filter_;
   cmn::UpdateGate gate_;
   cmn::BeliefPublisher publisher_;

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/motion/motion_controller.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <optional>
 #include <string>
@@ -19,19 +20,11 @@
 
 namespace {
 
-struct MotionNodeParams {
-  double obstacle_timeout_s = 0.5;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("obstacle_timeout_s", self.obstacle_timeout_s, cmn::Between{0.05, 10.0},
-          "[s] with obstacle_ahead silent for longer the robot does not move forward");
-  }
-};
-
 class MotionControllerNode {
  public:
   MotionControllerNode()
-      : params_{cmn::load_params_or_exit<cmn::NodeParams<MotionNodeParams>>(ros::NodeHandle("~"))},
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::MotionNodeParams>>(
+            ros::NodeHandle("~"))},
         controller_{params_.navigator.motion},
         odometry_{"odom", params_.navigator.motion.odometry_timeout_s},
         obstacles_{"obstacle_ahead", params_.own.obstacle_timeout_s},
@@ -142,7 +135,7 @@ class MotionControllerNode {
   }
 
   ros::NodeHandle nh_;
-  cmn::NodeParams<MotionNodeParams> params_;
+  cmn::NodeParams<cmn::MotionNodeParams> params_;
   cmn::MotionController controller_;
   cmn::InputMonitor odometry_;
   cmn::InputMonitor obstacles_;

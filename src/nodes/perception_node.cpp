@@ -7,6 +7,7 @@
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <optional>
 #include <string>
@@ -21,19 +22,10 @@
 
 namespace {
 
-struct PerceptionNodeParams {
-  double scan_timeout_s = 1.0;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("scan_timeout_s", self.scan_timeout_s, cmn::Between{0.05, 60.0},
-          "[s] scans silent for longer are an error in /diagnostics");
-  }
-};
-
 class PerceptionNode {
  public:
   PerceptionNode()
-      : params_{cmn::load_params_or_exit<cmn::NodeParams<PerceptionNodeParams>>(
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PerceptionNodeParams>>(
             ros::NodeHandle("~"))},
         projector_{params_.navigator.perception.local_occupancy},
         scans_{"scan", params_.own.scan_timeout_s} {
@@ -116,7 +108,7 @@ class PerceptionNode {
   }
 
   ros::NodeHandle nh_;
-  cmn::NodeParams<PerceptionNodeParams> params_;
+  cmn::NodeParams<cmn::PerceptionNodeParams> params_;
   cmn::RangeProjector projector_;
   cmn::InputMonitor scans_;
   std::optional<coarse_map_nav::LocalOccupancy> last_;

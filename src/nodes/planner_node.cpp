@@ -12,6 +12,7 @@
 #include "coarse_map_nav/planning/planner.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <deque>
 #include <limits>
@@ -30,19 +31,11 @@ namespace {
 
 using State = cmn::NavigationState;
 
-struct PlannerNodeParams {
-  double resend_after_s = 5.0;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("resend_after_s", self.resend_after_s, cmn::Between{0.5, 120.0},
-          "[s] without an answer for so long, the last action is sent again");
-  }
-};
-
 class PlannerNode {
  public:
   PlannerNode()
-      : params_{cmn::load_params_or_exit<cmn::NodeParams<PlannerNodeParams>>(ros::NodeHandle("~"))},
+      : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PlannerNodeParams>>(
+            ros::NodeHandle("~"))},
         server_{nh_, "move_base", false},
         beliefs_{"belief", 0.0} {
     action_pub_ = nh_.advertise<coarse_map_nav::DiscreteAction>("action", 1);
@@ -271,7 +264,7 @@ class PlannerNode {
   static constexpr const char* kResume = "goal_under_way";
 
   ros::NodeHandle nh_;
-  cmn::NodeParams<PlannerNodeParams> params_;
+  cmn::NodeParams<cmn::PlannerNodeParams> params_;
   actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction> server_;
   cmn::InputMonitor beliefs_;
   std::optional<cmn::CoarseMap> map_;

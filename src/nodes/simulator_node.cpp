@@ -7,6 +7,7 @@
 #include "coarse_map_nav/mapping/places.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 
 #include <cmath>
@@ -30,44 +31,11 @@
 
 namespace {
 
-struct SimulatorNodeParams {
-  std::string world;
-  double start_x = std::numeric_limits<double>::quiet_NaN();
-  double start_y = std::numeric_limits<double>::quiet_NaN();
-  double start_yaw_deg = std::numeric_limits<double>::quiet_NaN();
-  std::uint32_t seed = 1;
-  double speed = 1.0;
-  double odometry_rate = 50.0;
-  double scan_rate = 10.0;
-  double command_timeout_s = 0.6;
-  std::string laser_frame = "laser";
-  cmn::SimulationParams simulation;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("world", self.world, cmn::Anything{}, "file of the metric world, map_server yaml");
-    visit("start_x", self.start_x, cmn::Between{-1e6, 1e6},
-          "[m] start; not given: drawn from the seed");
-    visit("start_y", self.start_y, cmn::Between{-1e6, 1e6},
-          "[m] start; not given: drawn from the seed");
-    visit("start_yaw_deg", self.start_yaw_deg, cmn::Between{-360.0, 360.0},
-          "[deg] start; not given: one of the four headings, drawn from the seed");
-    visit("seed", self.seed, cmn::Between{0, 4294967295.0}, "seed of the start, noise and slip");
-    visit("speed", self.speed, cmn::Between{0.1, 100.0}, "[-] simulated over real time");
-    visit("odometry_rate", self.odometry_rate, cmn::Between{5.0, 500.0},
-          "[Hz] odom, TF and /clock");
-    visit("scan_rate", self.scan_rate, cmn::Between{0.5, 100.0}, "[Hz] scan");
-    visit("command_timeout_s", self.command_timeout_s, cmn::Between{0.05, 10.0},
-          "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
-    visit("laser_frame", self.laser_frame, cmn::Anything{}, "frame of the LiDAR");
-    visit.group("simulation", self.simulation);
-  }
-};
-
-using Params = cmn::NodeParams<SimulatorNodeParams>;
+using Params = cmn::NodeParams<cmn::SimulatorNodeParams>;
 
 /// The start that the parameters give. What they leave open is drawn from the seed: a place out of
 /// the world's list of starts or, without one, anywhere that the robot fits; one of four headings.
-cmn::Pose2 start_of(const SimulatorNodeParams& own, const cmn::World& world) {
+cmn::Pose2 start_of(const cmn::SimulatorNodeParams& own, const cmn::World& world) {
   std::mt19937 rng{own.seed};
   std::optional<cmn::Pose2> start =
       world.random_free_pose(own.simulation.robot.radius_m + 0.05, rng);

@@ -6,6 +6,7 @@
 
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/params.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
 
 #include <map>
 #include <string>
@@ -15,18 +16,6 @@
 #include <ros/ros.h>
 
 namespace cmn {
-
-struct FrameParams {
-  std::string map = "map";
-  std::string odom = "odom";
-  std::string base = "base_link";
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("map", self.map, Anything{}, "frame of the drawing (REP-105)");
-    visit("odom", self.odom, Anything{}, "frame of the odometry (REP-105)");
-    visit("base", self.base, Anything{}, "frame of the robot (REP-105)");
-  }
-};
 
 /// A node's private parameters: the preset (all groups of it, so that one file serves every node),
 /// the frames and what is the node's own.
