@@ -9,10 +9,23 @@
 namespace cmn {
 namespace {
 
+/// Finer than any sensor; a beam's number still fits an int.
+constexpr float kLeastIncrement_rad = 1e-6F;
+
 bool is_finite(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
 
 /// A float of a message as the decimal number it was meant to be: 0.4F is 0.4 again.
 double widened(float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; }
+
+/// A cell size that lengths can be divided by.
+bool is_resolution(float value) { return std::isfinite(value) && widened(value) > 0.0; }
+
+/// Compared as numbers: a far away point has no cell that an int could name.
+bool holds(const CoarseMap& map, Point2 p_map) {
+  const Point2 p = inverse(map.T_map_grid()) * p_map;
+  return p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() * map.resolution() &&
+         p.y < map.height() * map.resolution() && map.contains(map.cell_of(p_map));
+}
 
 }  // namespace
 
@@ -89,7 +102,7 @@ std::optional<CoarseMap> map_of(const nav_msgs::OccupancyGrid& grid, std::string
   if (cells == 0 || cells != grid.data.size()) {
     why = "the map says " + std::to_string(grid.info.width) + " x " +
           std::to_string(grid.info.height) + " cells and holds " + std::to_string(grid.data.size());
-  } else if (!(grid.info.resolution > 0.0F) || !std::isfinite(grid.info.resolution)) {
+  } else if (!is_resolution(grid.info.resolution)) {
     why = "the map's resolution " + std::to_string(grid.info.resolution) + " is no cell size";
   } else if (!origin) {
     why = "the map's origin is not a pose";
@@ -128,7 +141,7 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
           std::to_string(msg.confidence.size()) + " confidences";
     return std::nullopt;
   }
-  if (!(msg.resolution > 0.0F) || !std::isfinite(msg.resolution)) {
+  if (!is_resolution(msg.resolution)) {
     why = "it has no cell size";
     return std::nullopt;
   }
@@ -155,7 +168,7 @@ std::string fault_of(const sensor_msgs::LaserScan& scan) {
     return "the scan has no ranges";
   }
   if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment) ||
-      scan.angle_increment == 0.0F) {
+      std::abs(scan.angle_increment) < kLeastIncrement_rad) {
     return "the scan's angles are no angles";
   }
   if (!std::isfinite(scan.range_min) || !std::isfinite(scan.range_max) || scan.range_min < 0.0F ||
@@ -204,13 +217,16 @@ std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const
   for (const Heading h : kHeadings) {
     const std::size_t first = static_cast<std::size_t>(index(h)) * cells;
     for (std::size_t i = 0; i < cells; ++i) {
-      received.belief.set_weight(h, map.occupied().cell_at(i),
-                                 static_cast<double>(msg.probability[first + i]));
+      const auto p = static_cast<double>(msg.probability[first + i]);
+      if (!(p >= 0.0)) {
+        why = "it holds a value that is no probability";
+        return std::nullopt;
+      }
+      received.belief.set_weight(h, map.occupied().cell_at(i), p);
     }
   }
   const std::optional<Pose2> T_map_robot = pose_of(msg.estimate);
-  if (!received.belief.normalise() || !T_map_robot ||
-      !map.contains(map.cell_of(T_map_robot->position()))) {
+  if (!received.belief.normalise() || !T_map_robot || !holds(map, T_map_robot->position())) {
     why = "it holds no distribution or its estimate lies off the map";
     return std::nullopt;
   }
