@@ -10,6 +10,7 @@
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -80,8 +81,9 @@ class MotionControllerNode {
     last_sample_ = cmn::OdometrySample{odom.header.stamp.toSec(), *T_odom_robot};
     last_arrival_ = ros::Time::now();
     const bool was_idle = controller_.is_idle();
+    // Also when it was last heard before time went back.
     const bool is_guard_silent =
-        (last_arrival_ - obstacle_arrival_).toSec() > params_.own.obstacle_timeout_s;
+        std::abs((last_arrival_ - obstacle_arrival_).toSec()) > params_.own.obstacle_timeout_s;
     const cmn::MotionStep step =
         controller_.step(*last_sample_, obstacle_ahead_ || is_guard_silent, is_bumped_);
     if (!was_idle) {
