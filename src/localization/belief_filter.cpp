@@ -5,6 +5,7 @@
 #include "coarse_map_nav/data/random.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -15,55 +16,64 @@ namespace {
 /// Lies on no map, so that the next look at the belief chooses afresh.
 constexpr Estimate kNoEstimate{Heading::kEast, {-1, -1}, 0.0};
 
-/// One layer's worth of a filter step: out = L * moved(in), over the padded layout.
-///
-/// `stay` and `come` say, by neighbourhood, what share of a cell's own weight it keeps and what
-/// share of the weight of the cell behind it receives. `extra` is a further factor for each cell,
-/// or null. Returns the sum of `out`.
-struct LayerPass {
-  NeighbourhoodTable stay;
-  NeighbourhoodTable come;
-  const double* extra = nullptr;
+/// Weights below this are taken for 0: far below them lie the subnormal numbers, with which a step
+/// takes many times as long.
+constexpr double kTiny = 1e-250;
 
-  double run(const std::vector<double>& in, std::vector<double>& out,
-             const std::vector<std::uint16_t>& codes, std::ptrdiff_t behind, std::size_t first,
-             std::size_t last) const {
-    return extra == nullptr
-               ? sum_of(in, out, codes, behind, first, last, [](std::size_t) { return 1.0; })
-               : sum_of(in, out, codes, behind, first, last,
-                        [this](std::size_t i) { return extra[i]; });
-  }
+/// Less than this share of a cell is no motion but the rounding of sines; each motion costs a pass.
+constexpr double kNoShare = 1e-12;
 
- private:
-  template <class Factor>
-  double sum_of(const std::vector<double>& in, std::vector<double>& out,
-                const std::vector<std::uint16_t>& codes, std::ptrdiff_t behind, std::size_t first,
-                std::size_t last, Factor&& factor) const {
-    const double* source = in.data();
-    double* target = out.data();
-    const std::uint16_t* code = codes.data();
-    // Four sums, so that one addition need not wait for the one before.
-    std::array<double, 4> sums{};
-    const auto at = [&](std::size_t i) {
-      const double value =
-          factor(i) * (stay[code[i]] * source[i] +
-                       come[code[i]] * source[static_cast<std::ptrdiff_t>(i) - behind]);
-      target[i] = value;
-      return value;
-    };
-    std::size_t i = first;
-    for (; i + 4 <= last; i += 4) {
-      sums[0] += at(i);
-      sums[1] += at(i + 1);
-      sums[2] += at(i + 2);
-      sums[3] += at(i + 3);
-    }
-    for (; i < last; ++i) {
-      sums[0] += at(i);
-    }
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
+/// By kind of neighbourhood: what a cell keeps of its own weight, and takes of the cell's behind
+/// it.
+struct Shares {
+  std::vector<double> stay;
+  std::vector<double> come;
 };
+
+struct RowSummary {
+  double sum = 0.0;
+  double peak = 0.0;
+};
+
+/// Two neighbouring cells: the width of the vectors that every 64 bit processor has.
+using Pair = double __attribute__((vector_size(16)));
+Pair pair_at(const double* p) { return Pair{p[0], p[1]}; }
+Pair max(Pair a, Pair b) { return a > b ? a : b; }
+
+/// One row of a filter step: out = L * moved(in), for `count` cells. `likelihood` holds a further
+/// factor for each cell, or is null.
+template <bool kIsByCell>
+RowSummary step_row(const double* in, const double* in_behind, const std::uint16_t* kinds,
+                    const Shares& shares, const double* likelihood, int count, double* out) {
+  const double* stay = shares.stay.data();
+  const double* come = shares.come.data();
+  const Pair tiny{kTiny, kTiny};
+  Pair sum{};
+  Pair peak{};
+  int i = 0;
+  for (; i + 2 <= count; i += 2) {
+    Pair weight = Pair{stay[kinds[i]], stay[kinds[i + 1]]} * pair_at(in + i) +
+                  Pair{come[kinds[i]], come[kinds[i + 1]]} * pair_at(in_behind + i);
+    if constexpr (kIsByCell) {
+      weight *= pair_at(likelihood + i);
+    }
+    weight = weight > tiny ? weight : Pair{};
+    out[i] = weight[0];
+    out[i + 1] = weight[1];
+    sum += weight;
+    peak = max(peak, weight);
+  }
+  if (i < count) {
+    double weight = stay[kinds[i]] * in[i] + come[kinds[i]] * in_behind[i];
+    if constexpr (kIsByCell) {
+      weight *= likelihood[i];
+    }
+    out[i] = weight > kTiny ? weight : 0.0;
+    sum[0] += out[i];
+    peak[0] = std::max(peak[0], out[i]);
+  }
+  return {sum[0] + sum[1], std::max(peak[0], peak[1])};
+}
 
 }  // namespace
 
@@ -72,14 +82,17 @@ BeliefFilter::BeliefFilter(CoarseMap map, const LocalizationParams& params)
       params_{params},
       motion_{make_motion_model(params.motion, map_.resolution())},
       measurement_{make_measurement_model(params.measurement, map_)},
-      codes_{neighbourhood_codes(map_)},
+      kinds_{map_},
       rng_{params.seed},
       scratch_{map_.width(), map_.height()} {
+  for (RowPeaks* peaks : {&peaks_, &scratch_peaks_}) {
+    peaks->fill(std::vector<double>(static_cast<std::size_t>(map_.height()), 0.0));
+  }
   reset();
 }
 
 void BeliefFilter::reset() {
-  belief_ = Belief::uniform(map_);
+  start_from(Belief::uniform(map_));
   estimate_ = kNoEstimate;
   forget_odometry();
   contradictions_in_a_row_ = 0;
@@ -106,7 +119,7 @@ bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
   if (!near.normalise()) {
     return false;
   }
-  belief_ = std::move(near);
+  start_from(std::move(near));
   estimate_ = kNoEstimate;
   forget_odometry();
   contradictions_in_a_row_ = 0;
@@ -117,10 +130,10 @@ bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
 std::vector<BeliefFilter::Shift> BeliefFilter::shifts(const std::vector<CellStep>& steps) {
   std::vector<Shift> shifts;
   for (const CellStep& step : steps) {
-    if (step.forward != 0.0) {
+    if (std::abs(step.forward) > kNoShare) {
       shifts.push_back({step.forward > 0.0 ? 0 : 2, std::abs(step.forward)});
     }
-    if (step.left != 0.0) {
+    if (std::abs(step.left) > kNoShare) {
       shifts.push_back({step.left > 0.0 ? 1 : 3, std::abs(step.left)});
     }
   }
@@ -129,42 +142,66 @@ std::vector<BeliefFilter::Shift> BeliefFilter::shifts(const std::vector<CellStep
 
 double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* likelihood,
                            double least) {
-  const auto stride = static_cast<std::size_t>(belief_.stride());
-  const std::size_t last = belief_.padded_size() - stride;
+  const std::size_t kinds = kinds_.codes.size();
+  Shares shares{std::vector<double>(kinds, 0.0), std::vector<double>(kinds, 0.0)};
   double total = 0.0;
   for (const Heading h : kHeadings) {
+    const auto k = static_cast<std::size_t>(index(h));
     const Cell step = unit_step(turned(h, shift.quarter_turn - rolled));
-    LayerPass layer_pass;
-    const std::vector<double>* values =
-        likelihood == nullptr ? nullptr : &likelihood->values[static_cast<std::size_t>(index(h))];
-    const bool by_code = values != nullptr && likelihood->is_by_neighbourhood;
-    if (values != nullptr && !by_code) {
-      layer_pass.extra = values->data();
-    }
-    for (unsigned code = 0; code < layer_pass.stay.size(); ++code) {
-      const bool is_free = (code & neighbour_bit({0, 0})) == 0;
+    const double* values = likelihood == nullptr ? nullptr : likelihood->values[k].data();
+    const bool is_by_cell = values != nullptr && !likelihood->is_by_neighbourhood;
+    for (std::size_t kind = 1; kind < kinds; ++kind) {
+      const std::uint16_t code = kinds_.codes[kind];
       const bool may_leave = (code & neighbour_bit(step)) == 0;
       // With the factor in it, the weights stay near 1 in sum however many steps there are.
-      const double weight = !is_free ? 0.0 : belief_.factor() * (by_code ? (*values)[code] : 1.0);
-      layer_pass.stay[code] = weight * (may_leave ? 1.0 - shift.share : 1.0);
-      layer_pass.come[code] = weight * shift.share;
+      const double weight =
+          belief_.factor() * (values == nullptr || is_by_cell ? 1.0 : values[code]);
+      shares.stay[kind] = weight * (may_leave ? 1.0 - shift.share : 1.0);
+      shares.come[kind] = weight * shift.share;
     }
-    total += layer_pass.run(belief_.layer(h), scratch_.layer(h), codes_,
-                            step.x + step.y * belief_.stride(), stride, last);
+    const auto step_of_row = is_by_cell ? step_row<true> : step_row<false>;
+    for (int y = 0; y < map_.height(); ++y) {
+      const std::size_t first = belief_.padded_index({0, y});
+      const std::vector<double>& in = belief_.layer(h);
+      const RowSummary row =
+          step_of_row(in.data() + first, in.data() + belief_.padded_index(Cell{0, y} - step),
+                      kinds_.of_cell.data() + first, shares, is_by_cell ? values + first : nullptr,
+                      map_.width(), scratch_.layer(h).data() + first);
+      total += row.sum;
+      scratch_peaks_[k][static_cast<std::size_t>(y)] = row.peak;
+    }
   }
   if (!(total > least) || !std::isfinite(total)) {
     return 0.0;
   }
   scratch_.set_factor(1.0 / total);
   std::swap(belief_, scratch_);
+  std::swap(peaks_, scratch_peaks_);
   return total;
+}
+
+void BeliefFilter::turn(int quarter_turns) {
+  belief_.roll(quarter_turns);
+  const int q = ((quarter_turns % 4) + 4) % 4;
+  std::rotate(peaks_.begin(), peaks_.end() - q, peaks_.end());
+}
+
+void BeliefFilter::start_from(Belief belief) {
+  belief_ = std::move(belief);
+  for (const Heading h : kHeadings) {
+    for (int y = 0; y < map_.height(); ++y) {
+      const double* row = belief_.layer(h).data() + belief_.padded_index({0, y});
+      peaks_[static_cast<std::size_t>(index(h))][static_cast<std::size_t>(y)] =
+          *std::max_element(row, row + map_.width());
+    }
+  }
 }
 
 void BeliefFilter::predict(const Displacement& driven) {
   for (const Shift& shift : shifts(motion_->steps(driven, rng_))) {
     apply(shift, 0, nullptr, 0.0);
   }
-  belief_.roll(driven.quarter_turns);
+  turn(driven.quarter_turns);
   summarise();
 }
 
@@ -184,7 +221,7 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
     moves.push_back({0, 0.0});
   }
   // The last move and the correction share one pass.
-  belief_.roll(driven.quarter_turns);
+  turn(driven.quarter_turns);
   for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
     apply(moves[i], driven.quarter_turns, nullptr, 0.0);
   }
@@ -213,15 +250,16 @@ Correction BeliefFilter::settle(double evidence) {
     if (++contradictions_in_a_row_ >= params_.reopen_after) {
       contradictions_in_a_row_ = 0;
       outcome = Correction::kReopened;
-      const Belief anywhere = Belief::uniform(map_);
+      Belief mixed = Belief::uniform(map_);
       for (const Heading h : kHeadings) {
-        for (std::size_t i = 0; i < belief_.padded_size(); ++i) {
-          belief_.layer(h)[i] =
+        for (std::size_t i = 0; i < mixed.padded_size(); ++i) {
+          mixed.layer(h)[i] =
               (1.0 - params_.reopen_weight) * belief_.factor() * belief_.layer(h)[i] +
-              params_.reopen_weight * anywhere.factor() * anywhere.layer(h)[i];
+              params_.reopen_weight * mixed.factor() * mixed.layer(h)[i];
         }
       }
-      belief_.normalise();
+      mixed.normalise();
+      start_from(std::move(mixed));
     }
   }
   summarise();
@@ -230,25 +268,26 @@ Correction BeliefFilter::settle(double evidence) {
 
 void BeliefFilter::summarise() {
   double best = 0.0;
-  for (const Heading h : kHeadings) {
-    const std::vector<double>& layer = belief_.layer(h);
-    best = std::max(best, *std::max_element(layer.begin(), layer.end()));
+  for (const std::vector<double>& peaks : peaks_) {
+    best = std::max(best, *std::max_element(peaks.begin(), peaks.end()));
   }
   // Sums taken in another order differ in the last digits; such cells are equals.
   const double least = best * (1.0 - 1e-9);
-  const auto weight_of = [&](const Estimate& e) {
-    return belief_.layer(e.heading)[belief_.padded_index(e.cell)];
+  const auto weight_of = [&](Heading h, Cell c) {
+    return belief_.layer(h)[belief_.padded_index(c)];
   };
-  const bool is_still_best = belief_.contains(estimate_.cell) && weight_of(estimate_) >= least;
+  const bool is_still_best =
+      belief_.contains(estimate_.cell) && weight_of(estimate_.heading, estimate_.cell) >= least;
   if (!is_still_best) {
     std::vector<Estimate> equals;
-    const auto stride = static_cast<std::size_t>(belief_.stride());
     for (const Heading h : kHeadings) {
-      const std::vector<double>& layer = belief_.layer(h);
-      for (std::size_t i = stride; i < layer.size() - stride; ++i) {
-        if (layer[i] >= least && layer[i] > 0.0) {
-          equals.push_back(
-              {h, {static_cast<int>(i % stride) - 1, static_cast<int>(i / stride) - 1}});
+      for (int y = 0; y < map_.height(); ++y) {
+        const bool may_hold_one =
+            peaks_[static_cast<std::size_t>(index(h))][static_cast<std::size_t>(y)] >= least;
+        for (int x = 0; may_hold_one && x < map_.width(); ++x) {
+          if (weight_of(h, {x, y}) >= least && map_.is_free({x, y})) {
+            equals.push_back({h, {x, y}});
+          }
         }
       }
     }

@@ -5,17 +5,44 @@
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 namespace cmn {
 namespace {
 
-double power(double base, double exponent) {
-  return exponent == 1.0 ? base : exponent == 2.0 ? base * base : std::pow(base, exponent);
+/// Raises likelihoods to a power. Sums may have left -1e-17 where 0 is meant.
+void raise(std::vector<double>& values, double exponent) {
+  const auto cleaned = [](double value) { return value > 1e-15 ? value : 0.0; };
+  if (exponent == 2.0) {
+    for (double& value : values) {
+      const double likelihood = cleaned(value);
+      value = likelihood * likelihood;
+    }
+    return;
+  }
+  for (double& value : values) {
+    value = cleaned(value);
+  }
+  if (exponent != 1.0) {
+    cv::Mat all(1, static_cast<int>(values.size()), CV_64F, values.data());
+    cv::pow(all, exponent, all);
+  }
+}
+
+/// table[code] = `start` + the sum of by_bit[i] over the set bits i of the code.
+void fill_subset_sums(double start, const double* by_bit, int bits, double* table) {
+  table[0] = start;
+  for (int bit = 0; bit < bits; ++bit) {
+    const std::size_t first = std::size_t{1} << static_cast<unsigned>(bit);
+    const double added = by_bit[bit];
+    for (std::size_t code = 0; code < first; ++code) {
+      table[first + code] = table[code] + added;
+    }
+  }
 }
 
 /// Where cell `w` of a window seen by a robot of heading `h` lies in the map's axes.
@@ -34,56 +61,64 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
   std::vector<double> weight(bins, 0.0);
   std::vector<double> occupied(bins, 0.0);
 
-  // A fine cell covers parts of up to 2 x 2 coarse ones; its share along each axis.
-  struct Share {
-    int bin;
-    double part;
+  const double middle = 0.5 * (seen.size - 1);
+  const auto counts = [&](std::size_t i) {
+    return params.unseen_is_occupied || seen.confidence[i] > 0.0F;
   };
-  const double half_fine = residual_yaw_rad == 0.0 ? 0.5 * seen.resolution : 0.0;
-  const auto shares = [&](double center_m) {
-    const double low = (center_m - half_fine) / cell_m + 0.5 * n;
-    const double high = (center_m + half_fine) / cell_m + 0.5 * n;
-    const int first = static_cast<int>(std::floor(low));
-    const double border = first + 1.0;
-    const double part = high <= border ? 1.0 : (border - low) / (high - low);
-    return std::array<Share, 2>{Share{first, part}, Share{first + 1, 1.0 - part}};
-  };
-  const auto add = [&](const std::array<Share, 2>& xs, const std::array<Share, 2>& ys,
-                       double value) {
-    for (const Share& y : ys) {
-      for (const Share& x : xs) {
-        const double part = x.part * y.part;
-        if (part > 0.0 && x.bin >= 0 && y.bin >= 0 && x.bin < n && y.bin < n) {
-          const auto bin = static_cast<std::size_t>(y.bin * n + x.bin);
-          weight[bin] += part;
-          occupied[bin] += part * value;
+  if (residual_yaw_rad == 0.0) {
+    // A fine cell covers parts of up to 2 x 2 coarse ones; its share along each axis.
+    struct Share {
+      int bin;
+      double part;
+    };
+    std::vector<std::array<Share, 2>> shares;
+    for (int i = 0; i < seen.size; ++i) {
+      const double low = (i - 0.5 - middle) * seen.resolution / cell_m + 0.5 * n;
+      const double high = (i + 0.5 - middle) * seen.resolution / cell_m + 0.5 * n;
+      const int first = static_cast<int>(std::floor(low));
+      const double border = first + 1.0;
+      const double part = high <= border ? 1.0 : (border - low) / (high - low);
+      const auto share = [n](int bin, double p) {
+        return bin >= 0 && bin < n ? Share{bin, p} : Share{0, 0.0};
+      };
+      shares.push_back({share(first, part), share(first + 1, 1.0 - part)});
+    }
+    std::vector<double> row_weight(static_cast<std::size_t>(n));
+    std::vector<double> row_occupied(static_cast<std::size_t>(n));
+    for (int iy = 0; iy < seen.size; ++iy) {
+      std::fill(row_weight.begin(), row_weight.end(), 0.0);
+      std::fill(row_occupied.begin(), row_occupied.end(), 0.0);
+      for (int ix = 0; ix < seen.size; ++ix) {
+        const std::size_t i = seen.index_of(ix, iy);
+        if (counts(i)) {
+          for (const Share& x : shares[static_cast<std::size_t>(ix)]) {
+            row_weight[static_cast<std::size_t>(x.bin)] += x.part;
+            row_occupied[static_cast<std::size_t>(x.bin)] +=
+                x.part * static_cast<double>(seen.occupancy[i]);
+          }
+        }
+      }
+      for (const Share& y : shares[static_cast<std::size_t>(iy)]) {
+        const auto first = static_cast<std::size_t>(y.bin * n);
+        for (std::size_t x = 0; x < row_weight.size(); ++x) {
+          weight[first + x] += y.part * row_weight[x];
+          occupied[first + x] += y.part * row_occupied[x];
         }
       }
     }
-  };
-
-  const double c = std::cos(residual_yaw_rad);
-  const double s = std::sin(residual_yaw_rad);
-  const double middle = 0.5 * (seen.size - 1);
-  std::vector<std::array<Share, 2>> columns;
-  for (int ix = 0; ix < seen.size; ++ix) {
-    columns.push_back(shares((ix - middle) * seen.resolution));
-  }
-  for (int iy = 0; iy < seen.size; ++iy) {
-    const auto row = columns[static_cast<std::size_t>(iy)];
-    for (int ix = 0; ix < seen.size; ++ix) {
-      const std::size_t i = seen.index_of(ix, iy);
-      const bool is_unseen = seen.confidence[i] <= 0.0F;
-      if (is_unseen && !params.unseen_is_occupied) {
-        continue;
-      }
-      const double value = static_cast<double>(seen.occupancy[i]);
-      if (residual_yaw_rad == 0.0) {
-        add(columns[static_cast<std::size_t>(ix)], row, value);
-      } else {
-        const double x = (ix - middle) * seen.resolution;
-        const double y = (iy - middle) * seen.resolution;
-        add(shares(c * x - s * y), shares(s * x + c * y), value);
+  } else {
+    const double c = std::cos(residual_yaw_rad) * seen.resolution / cell_m;
+    const double s = std::sin(residual_yaw_rad) * seen.resolution / cell_m;
+    for (int iy = 0; iy < seen.size; ++iy) {
+      for (int ix = 0; ix < seen.size; ++ix) {
+        const double x = c * (ix - middle) - s * (iy - middle) + 0.5 * n;
+        const double y = s * (ix - middle) + c * (iy - middle) + 0.5 * n;
+        const std::size_t i = seen.index_of(ix, iy);
+        if (x >= 0.0 && y >= 0.0 && x < n && y < n && counts(i)) {
+          const auto bin = static_cast<std::size_t>(static_cast<int>(y) * n + static_cast<int>(x));
+          weight[bin] += 1.0;
+          occupied[bin] += static_cast<double>(seen.occupancy[i]);
+        }
       }
     }
   }
@@ -100,10 +135,20 @@ OverlapModel::OverlapModel(const CoarseMap& map, const MeasurementModelParams& p
     : params_{params}, map_{map} {
   likelihood_.is_by_neighbourhood = params.window_cells() == 3;
   const std::size_t count = likelihood_.is_by_neighbourhood
-                                ? std::tuple_size<NeighbourhoodTable>::value
+                                ? kNeighbourhoods
                                 : Belief(map.width(), map.height()).padded_size();
   for (auto& values : likelihood_.values) {
     values.assign(count, 0.0);
+  }
+  const int reach = params.window_reach;
+  for (int y = -reach; y < map.height() + reach && !likelihood_.is_by_neighbourhood; ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      std::uint32_t code = 0;
+      for (int i = 0; i < params.window_cells(); ++i) {
+        code |= (map.is_occupied({x - reach + i, y}) ? 1U : 0U) << static_cast<unsigned>(i);
+      }
+      row_codes_.push_back(code);
+    }
   }
 }
 
@@ -123,7 +168,7 @@ const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double resid
 void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Heading heading,
                                          double exponent) {
   // |m_hat - m| is m_hat where the map is free and 1 - m_hat where it is occupied: linear in the
-  // map's bits, so each code follows from the one without its highest bit.
+  // map's bits.
   std::vector<double>& table = likelihood_.values[static_cast<std::size_t>(index(heading))];
   std::array<double, 9> by_bit{};
   double free_everywhere = 9.0;
@@ -133,47 +178,51 @@ void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Head
     by_bit[static_cast<std::size_t>((offset.y + 1) * 3 + offset.x + 1)] = (2.0 * m_hat - 1.0) / 9.0;
     free_everywhere -= m_hat;
   }
-  table[0] = free_everywhere / 9.0;
-  for (std::size_t bit = 0; bit < 9; ++bit) {
-    const std::size_t first = std::size_t{1} << bit;
-    for (std::size_t code = first; code < 2 * first; ++code) {
-      table[code] = table[code - first] + by_bit[bit];
-    }
-  }
-  for (double& likelihood : table) {
-    // The sums above may leave -1e-17 where 0 is meant.
-    likelihood = power(likelihood > 1e-15 ? likelihood : 0.0, exponent);
-  }
+  fill_subset_sums(free_everywhere / 9.0, by_bit.data(), 9, table.data());
+  raise(table, exponent);
 }
 
 void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading,
                                 double exponent) {
   const int n = params_.window_cells();
-  cv::Mat kernel(n, n, CV_64F);
+  std::vector<double> by_bit(window.size());
   double free_everywhere = n * n;
   for (int w = 0; w < n * n; ++w) {
     const double m_hat = window[static_cast<std::size_t>(w)];
     const Cell offset = in_map_axes(w, n, heading);
-    kernel.at<double>(offset.y + n / 2, offset.x + n / 2) = (2.0 * m_hat - 1.0) / (n * n);
+    by_bit[static_cast<std::size_t>((offset.y + n / 2) * n + offset.x + n / 2)] =
+        (2.0 * m_hat - 1.0) / (n * n);
     free_everywhere -= m_hat;
   }
-  cv::Mat occupied;
-  cv::Mat(map_.height(), map_.width(), CV_8U,
-          const_cast<std::uint8_t*>(map_.occupied().values().data()))
-      .convertTo(occupied, CV_64F);
-  cv::Mat padded;
-  cv::copyMakeBorder(occupied, padded, n, n, n, n, cv::BORDER_CONSTANT, 1.0);
-  cv::Mat likelihood;
-  cv::filter2D(padded, likelihood, CV_64F, kernel, cv::Point(-1, -1), free_everywhere / (n * n),
-               cv::BORDER_CONSTANT);
+  // The rows of the window, in parts of at most 9 bits.
+  struct Part {
+    std::size_t row;
+    unsigned first_bit;
+    std::array<double, kNeighbourhoods> sums;
+  };
+  std::vector<Part> parts;
+  for (int row = 0; row < n; ++row) {
+    for (int bit = 0; bit < n; bit += 9) {
+      parts.push_back({static_cast<std::size_t>(row), static_cast<unsigned>(bit), {}});
+      fill_subset_sums(parts.size() == 1 ? free_everywhere / (n * n) : 0.0,
+                       by_bit.data() + row * n + bit, std::min(9, n - bit),
+                       parts.back().sums.data());
+    }
+  }
   const Belief layout{map_.width(), map_.height()};
+  const auto width = static_cast<std::size_t>(map_.width());
   std::vector<double>& values = likelihood_.values[static_cast<std::size_t>(index(heading))];
   for (int y = 0; y < map_.height(); ++y) {
     for (int x = 0; x < map_.width(); ++x) {
-      const double value = likelihood.at<double>(y + n, x + n);
-      values[layout.padded_index({x, y})] = power(value > 1e-15 ? value : 0.0, exponent);
+      const std::uint32_t* codes = row_codes_.data() + map_.occupied().index_of({x, y});
+      double sum = 0.0;
+      for (const Part& part : parts) {
+        sum += part.sums[(codes[part.row * width] >> part.first_bit) % kNeighbourhoods];
+      }
+      values[layout.padded_index({x, y})] = sum;
     }
   }
+  raise(values, exponent);
 }
 
 std::unique_ptr<MeasurementModel> make_measurement_model(const MeasurementModelParams& params,

@@ -4,6 +4,8 @@
 
 #include "coarse_map_nav/data/belief.hpp"
 
+#include <array>
+
 namespace cmn {
 
 std::vector<std::uint16_t> neighbourhood_codes(const CoarseMap& map) {
@@ -21,6 +23,20 @@ std::vector<std::uint16_t> neighbourhood_codes(const CoarseMap& map) {
     }
   }
   return codes;
+}
+
+NeighbourhoodKinds::NeighbourhoodKinds(const CoarseMap& map)
+    : codes{511}, of_cell{neighbourhood_codes(map)} {
+  std::array<std::uint16_t, kNeighbourhoods> kind_of_code{};
+  for (std::uint16_t& cell : of_cell) {
+    const std::uint16_t code = cell;
+    const bool is_free = (code & neighbour_bit({0, 0})) == 0;
+    if (is_free && kind_of_code[code] == 0) {
+      kind_of_code[code] = static_cast<std::uint16_t>(codes.size());
+      codes.push_back(code);
+    }
+    cell = kind_of_code[code];
+  }
 }
 
 }  // namespace cmn

@@ -316,6 +316,38 @@ TEST(BeliefFilterProperty, TheTableOfNeighbourhoodsEqualsTheCorrelation) {
   }
 }
 
+TEST(BeliefFilterProperty, WindowsOfAnySizeEqualTheDirectSum) {
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 rng{seed};
+    const CoarseMap map = random_map(rng, 9, 6);
+    MeasurementModelParams params;
+    params.window_reach = std::vector<int>{0, 2, 4, 5, 9, 15}[seed % 6];
+    params.exponent = std::vector<double>{1.0, 2.0, 5.0, 0.7}[seed % 4];
+    const int n = params.window_cells();
+    const LocalOccupancy seen = random_observation(rng, n);
+    OverlapModel model{map, params};
+    const Likelihood& likelihood = model.measure(seen, 0.0, 1.0);
+    ASSERT_FALSE(likelihood.is_by_neighbourhood);
+    const Belief layout{map.width(), map.height()};
+    for (const Heading h : kHeadings) {
+      for (int y = 0; y < map.height(); ++y) {
+        for (int x = 0; x < map.width(); ++x) {
+          double sum = 0.0;
+          for (int w = 0; w < n * n; ++w) {
+            const Cell offset = turned(Cell{w % n - n / 2, w / n - n / 2}, index(h));
+            const double m = map.is_occupied(Cell{x, y} + offset) ? 1.0 : 0.0;
+            sum += std::abs(static_cast<double>(seen.occupancy[static_cast<std::size_t>(w)]) - m);
+          }
+          const auto k = static_cast<std::size_t>(index(h));
+          ASSERT_NEAR(likelihood.values[k][layout.padded_index({x, y})],
+                      std::pow(1.0 - sum / (n * n), params.exponent), 1e-12);
+        }
+      }
+    }
+  }
+}
+
 TEST(BeliefFilterProperty, FourQuarterTurnsAreNone) {
   std::mt19937_64 rng{3};
   BeliefFilter filter{random_map(rng, 6, 6), LocalizationParams{}};

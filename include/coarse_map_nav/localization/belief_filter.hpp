@@ -13,6 +13,7 @@
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -97,11 +98,15 @@ class BeliefFilter {
     int quarter_turn;
     double share;
   };
+  /// The greatest weight in each row of each layer: the best cells are found without another pass.
+  using RowPeaks = std::array<std::vector<double>, 4>;
   static std::vector<Shift> shifts(const std::vector<CellStep>& steps);
   /// Moves every layer and, where a likelihood is given, weighs it, then normalises. The layers
   /// have been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where
   /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
+  void turn(int quarter_turns);
+  void start_from(Belief belief);
   Correction settle(double evidence);
   double news_in(const Displacement& driven) const;
   void summarise();
@@ -109,10 +114,12 @@ class BeliefFilter {
   LocalizationParams params_;
   std::unique_ptr<MotionModel> motion_;
   std::unique_ptr<MeasurementModel> measurement_;
-  std::vector<std::uint16_t> codes_;
+  NeighbourhoodKinds kinds_;
   std::mt19937_64 rng_;
   Belief belief_;
+  RowPeaks peaks_;
   Belief scratch_;
+  RowPeaks scratch_peaks_;
   std::optional<Pose2> T_odom_last_;
   Estimate estimate_;
   double confidence_ = 0.0;

@@ -9,6 +9,7 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,7 +66,10 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
 
 /// CMN eq. 2: L(k, c) = (1 - (1/n^2) sum |m_hat_k - m(c)|)^exponent, with m(c) the n x n window of
 /// the map about c and m_hat_k the observation turned by heading k. Cells outside are occupied.
-/// n = 3: by neighbourhood, 512 additions a heading. Other n: correlations with the map.
+///
+/// The sum over a row of the window depends on n bits of the map; tables of it, built anew for each
+/// observation by one addition an entry, cost one look-up a row and cell (two for n > 9, and so
+/// on). n = 3: a single table for all three rows, by neighbourhood.
 class OverlapModel : public MeasurementModel {
  public:
   OverlapModel(const CoarseMap& map, const MeasurementModelParams& params);
@@ -78,6 +82,8 @@ class OverlapModel : public MeasurementModel {
 
   MeasurementModelParams params_;
   CoarseMap map_;
+  /// Bit i at (x, y): the map's cell (x - reach + i, y) is occupied; y from -reach on.
+  std::vector<std::uint32_t> row_codes_;
   Likelihood likelihood_;
 };
 
