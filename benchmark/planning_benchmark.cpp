@@ -2,37 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// What planning costs: once per goal, and at every decision.
-#include "coarse_map_nav/data/random.hpp"
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 #include "coarse_map_nav/planning/grid_planner.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
 #include <string>
-#include <utility>
 
+#include "rooms.hpp"
 #include <benchmark/benchmark.h>
 
 namespace cmn {
 namespace {
-
-/// Rooms of 8 x 8 cells with a door in every wall and a little furniture.
-CoarseMap rooms(int width, int height) {
-  std::mt19937_64 rng{1};
-  Grid<std::uint8_t> occupied{width, height};
-  for (std::size_t i = 0; i < occupied.size(); ++i) {
-    const Cell c = occupied.cell_at(i);
-    const bool is_wall = c.x % 9 == 0 || c.y % 9 == 0;
-    const bool is_door = (c.x % 9 == 0) != (c.y % 9 == 0) && (c.x % 9 == 4 || c.y % 9 == 4);
-    const bool is_middle = c.x % 9 == 4 || c.y % 9 == 4;
-    occupied[i] = (is_wall && !is_door) || (!is_wall && !is_middle && draw_uniform(rng) < 0.1);
-  }
-  return CoarseMap{std::move(occupied), 0.4};
-}
-
-Cell first_middle() { return {4, 4}; }
-Cell last_middle(const CoarseMap& map) {
-  return {(map.width() - 5) / 9 * 9 + 4, (map.height() - 5) / 9 * 9 + 4};
-}
 
 void cost_to_go(benchmark::State& state) {
   const CoarseMap map = rooms(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
