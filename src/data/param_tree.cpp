@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iomanip>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,10 +15,16 @@
 namespace cmn {
 namespace {
 
+/// As few digits as give the same number when read again.
 std::string text_of(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
+  for (int digits = 6;; ++digits) {
+    std::ostringstream out;
+    out << std::setprecision(digits) << value;
+    if (digits == std::numeric_limits<double>::max_digits10 ||
+        std::strtod(out.str().c_str(), nullptr) == value) {
+      return out.str();
+    }
+  }
 }
 
 std::string text_of(Between range) {
