@@ -235,6 +235,12 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   return settle(evidence);
 }
 
+Pose2 BeliefFilter::T_map_robot() const {
+  const Point2 p = map_.center_of(estimate_.cell);
+  const double residual_rad = T_odom_last_ ? residual_yaw(*T_odom_last_) : 0.0;
+  return {p.x, p.y, wrap_angle(yaw(estimate_.heading) + map_.T_map_grid().yaw + residual_rad)};
+}
+
 double BeliefFilter::news_in(const Displacement& driven) const {
   const double way_m = std::hypot(driven.forward_m, driven.left_m);
   return way_m >= params_.independence_m ? 1.0 : way_m / params_.independence_m;

@@ -10,7 +10,9 @@
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/ros/tf_lookup.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -64,15 +66,12 @@ class LocalizerNode {
       ROS_ERROR_STREAM("map: " << why);
       return;
     }
-    if (filter_ && filter_->map().occupied() == map->occupied() &&
-        filter_->map().resolution() == map->resolution()) {
+    if (filter_ && cmn::is_same_drawing(filter_->map(), *map)) {
       return;  // the map server came back with the same drawing
     }
     filter_.emplace(*map, params_.navigator.localization);
     publisher_.place_layers(*map);
     gate_.reset();
-    ROS_INFO_STREAM("localizing on a map of " << map->width() << " x " << map->height()
-                                              << " cells");
   }
 
   void on_result(const coarse_map_nav::MotionResult& result) {
@@ -86,16 +85,10 @@ class LocalizerNode {
       observations_.dropped(why);
       return;
     }
-    std::optional<cmn::Pose2> T_odom_robot;
-    try {
-      T_odom_robot = cmn::pose_of(
-          tf_buffer_.lookupTransform(params_.frames.odom, msg->header.frame_id, msg->header.stamp)
-              .transform);
-    } catch (const tf2::TransformException& e) {
-      why = e.what();
-    }
+    const std::optional<cmn::Pose2> T_odom_robot =
+        cmn::lookup(tf_buffer_, params_.frames.odom, msg->header.frame_id, msg->header.stamp, why);
     if (!T_odom_robot) {
-      observations_.dropped("no pose in " + params_.frames.odom + " at its time " + why);
+      observations_.dropped(why);
       return;
     }
     observations_.received(msg->header.stamp);
@@ -112,7 +105,7 @@ class LocalizerNode {
       ROS_WARN_COND(outcome != cmn::Correction::kApplied, "what is seen contradicts the map%s",
                     outcome == cmn::Correction::kReopened ? ": the belief is re-opened" : "");
       T_odom_update_ = *T_odom_robot;
-      publisher_.publish(*filter_, T_map_robot(), gate_.action_id(), msg->header.stamp);
+      publisher_.publish(*filter_, gate_.action_id(), msg->header.stamp);
     }
     broadcast(msg->header.stamp);
   }
@@ -123,9 +116,9 @@ class LocalizerNode {
       ROS_ERROR_STREAM("initialpose: needs a map and a pose in frame " << params_.frames.map);
       return;
     }
-    const auto& covariance = msg.pose.covariance;
-    const double sigma_m = std::sqrt(std::max(0.0, std::max(covariance[0], covariance[7])));
-    if (!filter_->reset_near(*pose, sigma_m, std::sqrt(std::max(0.0, covariance[35])))) {
+    const auto& c = msg.pose.covariance;
+    const double sigma_m = std::sqrt(std::max({0.0, c[0], c[7]}));
+    if (!filter_->reset_near(*pose, sigma_m, std::sqrt(std::max(0.0, c[35])))) {
       ROS_ERROR("initialpose: there is no free cell near it");
       return;
     }
@@ -140,20 +133,13 @@ class LocalizerNode {
     return true;
   }
 
-  /// The middle of the estimate's cell, its heading and what the robot is turned from the axis.
-  cmn::Pose2 T_map_robot() const {
-    const cmn::Point2 p = filter_->map().center_of(filter_->estimate().cell);
-    return {p.x, p.y,
-            cmn::wrap_angle(cmn::yaw(filter_->estimate().heading) +
-                            filter_->map().T_map_grid().yaw + cmn::residual_yaw(T_odom_update_))};
-  }
-
   void broadcast(const ros::Time& stamp) {
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = stamp + ros::Duration(params_.own.transform_tolerance_s);
     transform.header.frame_id = params_.frames.map;
     transform.child_frame_id = params_.frames.odom;
-    transform.transform = cmn::transform_message(T_map_robot() * cmn::inverse(T_odom_update_));
+    transform.transform =
+        cmn::transform_message(filter_->T_map_robot() * cmn::inverse(T_odom_update_));
     tf_broadcaster_.sendTransform(transform);
   }
 

@@ -124,14 +124,10 @@ class MotionControllerNode {
     if (!result) {
       return;
     }
-    coarse_map_nav::MotionResult msg;
-    msg.header.stamp = ros::Time(last_sample_->stamp_s);
-    msg.header.frame_id = params_.frames.odom;
-    msg.id = result->action_id;
-    msg.outcome = static_cast<std::uint8_t>(result->outcome);
-    msg.displacement.x = result->T_start_end.x;
-    msg.displacement.y = result->T_start_end.y;
-    msg.displacement.theta = result->T_start_end.yaw;
+    std_msgs::Header header;
+    header.stamp = ros::Time(last_sample_->stamp_s);
+    header.frame_id = params_.frames.odom;
+    const coarse_map_nav::MotionResult msg = cmn::message_of(*result, header);
     result_pub_.publish(msg);
     last_result_ = msg;
   }

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/ros/tf_lookup.hpp"
 
 #include <optional>
 #include <string>
@@ -47,8 +48,11 @@ class PerceptionNode {
       scans_.dropped(fault);
       return;
     }
-    const std::optional<cmn::Pose2> T_robot_sensor = mount_of(scan);
+    std::string why;
+    const std::optional<cmn::Pose2> T_robot_sensor =
+        cmn::lookup(tf_buffer_, params_.frames.base, scan.header.frame_id, scan.header.stamp, why);
     if (!T_robot_sensor) {
+      scans_.dropped(why);
       return;
     }
     scans_.received(scan.header.stamp);
@@ -77,21 +81,6 @@ class PerceptionNode {
     if (last_) {
       local_pub_.publish(*last_);
     }
-  }
-
-  std::optional<cmn::Pose2> mount_of(const sensor_msgs::LaserScan& scan) {
-    try {
-      const auto transform = tf_buffer_.lookupTransform(params_.frames.base, scan.header.frame_id,
-                                                        scan.header.stamp, ros::Duration(0.0));
-      if (const auto pose = cmn::pose_of(transform.transform)) {
-        return pose;
-      }
-      scans_.dropped("the sensor's mount is not a pose");
-    } catch (const tf2::TransformException& e) {
-      scans_.dropped("no transform from " + scan.header.frame_id + " to " + params_.frames.base);
-      ROS_DEBUG_STREAM(e.what());
-    }
-    return std::nullopt;
   }
 
   void publish_grid(const cmn::LocalOccupancy& local, const std_msgs::Header& header) {

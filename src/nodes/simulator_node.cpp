@@ -138,20 +138,10 @@ class SimulatorNode {
   }
 
   void publish_scan() {
-    const cmn::RangeScan scan = simulator_.scan();
-    sensor_msgs::LaserScan msg;
-    msg.header.stamp = stamp();
-    msg.header.frame_id = params_.own.laser_frame;
-    msg.angle_min = static_cast<float>(scan.angle_min_rad);
-    msg.angle_increment = static_cast<float>(scan.angle_increment_rad);
-    msg.angle_max = static_cast<float>(scan.angle_min_rad +
-                                       scan.angle_increment_rad *
-                                           (static_cast<double>(scan.ranges_m.size()) - 1.0));
-    msg.scan_time = static_cast<float>(1.0 / params_.own.scan_rate);
-    msg.range_min = static_cast<float>(scan.range_min_m);
-    msg.range_max = static_cast<float>(scan.range_max_m);
-    msg.ranges = scan.ranges_m;
-    scan_pub_.publish(msg);
+    std_msgs::Header header;
+    header.stamp = stamp();
+    header.frame_id = params_.own.laser_frame;
+    scan_pub_.publish(cmn::message_of(simulator_.scan(), header, 1.0 / params_.own.scan_rate));
   }
 
   /// Simulated time starts here: time 0 means "no time yet" to ROS.

@@ -60,12 +60,12 @@ void BeliefPublisher::place_layers(const CoarseMap& map) {
   static_tf_.sendTransform(transforms);
 }
 
-void BeliefPublisher::publish(const BeliefFilter& filter, const Pose2& T_map_robot,
-                              std::uint32_t action_id, const ros::Time& stamp) {
+void BeliefPublisher::publish(const BeliefFilter& filter, std::uint32_t action_id,
+                              const ros::Time& stamp) {
   geometry_msgs::PoseWithCovarianceStamped pose;
   pose.header.frame_id = map_frame_;
   pose.header.stamp = stamp;
-  pose.pose.pose = pose_message(T_map_robot);
+  pose.pose.pose = pose_message(filter.T_map_robot());
   const Spread spread = spread_about(filter.belief(), filter.estimate());
   const double square = filter.map().resolution() * filter.map().resolution();
   pose.pose.covariance[0] = square * spread.xx;

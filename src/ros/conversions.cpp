@@ -237,4 +237,68 @@ std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const
   return received;
 }
 
+coarse_map_nav::DiscreteAction message_of(const Action& action, std::uint32_t id,
+                                          const std_msgs::Header& header) {
+  coarse_map_nav::DiscreteAction message;
+  message.header = header;
+  message.id = id;
+  message.type = static_cast<std::uint8_t>(action.type);
+  message.distance = static_cast<float>(action.distance_m);
+  return message;
+}
+
+coarse_map_nav::MotionResult message_of(const MotionResult& result,
+                                        const std_msgs::Header& header) {
+  coarse_map_nav::MotionResult message;
+  message.header = header;
+  message.id = result.action_id;
+  message.outcome = static_cast<std::uint8_t>(result.outcome);
+  message.displacement.x = result.T_start_end.x;
+  message.displacement.y = result.T_start_end.y;
+  message.displacement.theta = result.T_start_end.yaw;
+  return message;
+}
+
+coarse_map_nav::NavigationStatus message_of(const Decision& decision, double confidence,
+                                            int actions, const std_msgs::Header& header) {
+  coarse_map_nav::NavigationStatus message;
+  message.header = header;
+  message.state = static_cast<std::uint8_t>(decision.state);
+  message.text = decision.text;
+  message.confidence = static_cast<float>(confidence);
+  message.distance_to_go = static_cast<float>(decision.distance_to_go_m);
+  message.actions = static_cast<std::uint32_t>(actions);
+  return message;
+}
+
+nav_msgs::Path message_of(const std::vector<Cell>& path, const CoarseMap& map,
+                          const std_msgs::Header& header) {
+  nav_msgs::Path message;
+  message.header = header;
+  for (const Cell c : path) {
+    const Point2 p = map.center_of(c);
+    geometry_msgs::PoseStamped pose;
+    pose.header = header;
+    pose.pose = pose_message({p.x, p.y, 0.0});
+    message.poses.push_back(pose);
+  }
+  return message;
+}
+
+sensor_msgs::LaserScan message_of(const RangeScan& scan, const std_msgs::Header& header,
+                                  double period_s) {
+  sensor_msgs::LaserScan message;
+  message.header = header;
+  message.angle_min = static_cast<float>(scan.angle_min_rad);
+  message.angle_increment = static_cast<float>(scan.angle_increment_rad);
+  message.angle_max = static_cast<float>(scan.angle_min_rad +
+                                         scan.angle_increment_rad *
+                                             (static_cast<double>(scan.ranges_m.size()) - 1.0));
+  message.scan_time = static_cast<float>(period_s);
+  message.range_min = static_cast<float>(scan.range_min_m);
+  message.range_max = static_cast<float>(scan.range_max_m);
+  message.ranges = scan.ranges_m;
+  return message;
+}
+
 }  // namespace cmn

@@ -58,4 +58,11 @@ class CoarseMap {
   std::size_t free_count_ = 0;
 };
 
+/// The same cells of the same size at the same place.
+inline bool is_same_drawing(const CoarseMap& a, const CoarseMap& b) {
+  return a.occupied() == b.occupied() && a.resolution() == b.resolution() &&
+         a.T_map_grid().x == b.T_map_grid().x && a.T_map_grid().y == b.T_map_grid().y &&
+         a.T_map_grid().yaw == b.T_map_grid().yaw;
+}
+
 }  // namespace cmn

@@ -87,6 +87,9 @@ class BeliefFilter {
   /// The most probable state; equals are told apart by a seeded draw, and the one chosen is kept
   /// while it is still among the best (CMN sec. IV-D: "ties are broken randomly").
   const Estimate& estimate() const { return estimate_; }
+  /// The estimate as a pose: the middle of its cell, its heading and what the robot was turned from
+  /// the odometry axis at the last update.
+  Pose2 T_map_robot() const;
   /// The probability within 1 m of the estimate, at its heading.
   double confidence() const { return confidence_; }
   bool is_converged() const { return confidence_ >= params_.converged_confidence; }

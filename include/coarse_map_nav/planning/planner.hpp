@@ -17,6 +17,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cmn {
@@ -68,6 +69,11 @@ struct Decision {
   double distance_to_go_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN without a path
   std::string text;  ///< one sentence for a person
 };
+
+/// To stand still, and why.
+inline Decision resting(NavigationState state, std::string why) {
+  return {state, Action{}, std::numeric_limits<double>::quiet_NaN(), std::move(why)};
+}
 
 /// What the localizer says, as the planner needs it.
 struct Localization {

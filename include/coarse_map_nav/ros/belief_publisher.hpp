@@ -26,9 +26,8 @@ class BeliefPublisher {
 
   /// Where rviz is to show the layers of a map of this size.
   void place_layers(const CoarseMap& map);
-  /// `T_map_robot`: the estimate, residual yaw included. Stamps everything with `stamp`.
-  void publish(const BeliefFilter& filter, const Pose2& T_map_robot, std::uint32_t action_id,
-               const ros::Time& stamp);
+  /// Stamps everything with `stamp`.
+  void publish(const BeliefFilter& filter, std::uint32_t action_id, const ros::Time& stamp);
 
  private:
   void publish_grids(const BeliefFilter& filter, const ros::Time& stamp);

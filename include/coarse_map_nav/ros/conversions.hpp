@@ -5,20 +5,28 @@
 #pragma once
 
 #include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/DiscreteAction.h"
 #include "coarse_map_nav/LocalOccupancy.h"
+#include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/NavigationStatus.h"
+#include "coarse_map_nav/data/action.hpp"
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
+#include "coarse_map_nav/planning/planner.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
 #include <nav_msgs/MapMetaData.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Path.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Header.h>
 
@@ -57,5 +65,17 @@ coarse_map_nav::Belief message_of(const Belief& belief, const CoarseMap& map);
 /// Empty, and `why` says so, when the message does not fit the map or holds no distribution.
 std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const CoarseMap& map,
                                         std::string& why);
+
+coarse_map_nav::DiscreteAction message_of(const Action& action, std::uint32_t id,
+                                          const std_msgs::Header& header);
+coarse_map_nav::MotionResult message_of(const MotionResult& result, const std_msgs::Header& header);
+coarse_map_nav::NavigationStatus message_of(const Decision& decision, double confidence,
+                                            int actions, const std_msgs::Header& header);
+/// The middles of cells.
+nav_msgs::Path message_of(const std::vector<Cell>& path, const CoarseMap& map,
+                          const std_msgs::Header& header);
+/// Stamped by the header: the scan's own time counts from the simulation's start.
+sensor_msgs::LaserScan message_of(const RangeScan& scan, const std_msgs::Header& header,
+                                  double period_s);
 
 }  // namespace cmn
