@@ -31,7 +31,7 @@ visualization_msgs::MarkerArray markers_of(const cmn::MapPlaces& places,
     marker.id = static_cast<int>(array.markers.size());
     marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
     marker.pose = cmn::pose_message({place.map.x, place.map.y, 0.0});
-    marker.scale.z = 0.35;
+    marker.scale.z = 0.28;
     marker.color.r = 0.1F;
     marker.color.g = 0.3F;
     marker.color.b = 0.6F;

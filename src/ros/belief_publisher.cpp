@@ -21,12 +21,36 @@ namespace {
 constexpr std::array<const char*, 4> kLayerNames{"belief/east", "belief/north", "belief/west",
                                                  "belief/south"};
 
-/// Probabilities as the cells of an occupancy grid: 1 to 98, the greatest of them 98. rviz's
-/// costmap colours run from blue to red over that range and leave 0 clear.
+// Beside the map, the layers are as high as it together.
+constexpr double kGap = 0.04;  // of the map's height
+constexpr double kLayerScale = (1.0 - 3.0 * kGap) / 4.0;
+
+/// Probabilities as the cells of an occupancy grid, the greatest of them 98. rviz's costmap colours
+/// run from blue to red over 1 to 98 and leave 0 clear, which is what is left of less than a
+/// hundredth of the greatest.
 std::int8_t shade_of(double probability, double greatest) {
   // The square root lets second-best places show beside a sharp peak.
   const double share = greatest > 0.0 ? std::sqrt(probability / greatest) : 0.0;
-  return static_cast<std::int8_t>(std::lround(98.0 * share));
+  return share < 0.1 ? std::int8_t{0} : static_cast<std::int8_t>(std::lround(98.0 * share));
+}
+
+/// An arrow and a name for a layer, about `center`, in lines of `line_m`.
+std::array<visualization_msgs::Marker, 2> label_of(Heading h, Point2 center, double line_m) {
+  visualization_msgs::Marker text;
+  text.ns = "labels";
+  text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  text.pose = pose_message({center.x, center.y - line_m, 0.0});
+  text.scale.z = line_m;
+  text.color.r = text.color.g = text.color.b = 0.25F;
+  text.color.a = 1.0F;
+  text.text = std::string{kLayerNames[static_cast<std::size_t>(index(h))]}.substr(7);
+  visualization_msgs::Marker arrow = text;
+  arrow.type = visualization_msgs::Marker::ARROW;
+  const Point2 tail = Point2{center.x, center.y + 0.7 * line_m} - turned({line_m, 0.0}, yaw(h));
+  arrow.pose = pose_message({tail.x, tail.y, yaw(h)});
+  arrow.scale.x = 2.0 * line_m;
+  arrow.scale.y = arrow.scale.z = 0.4 * line_m;
+  return {arrow, text};
 }
 
 }  // namespace
@@ -37,27 +61,37 @@ BeliefPublisher::BeliefPublisher(ros::NodeHandle& nh, std::string map_frame)
   for (std::size_t k = 0; k < kLayerNames.size(); ++k) {
     layer_pubs_[k] = nh.advertise<nav_msgs::OccupancyGrid>(kLayerNames[k], 1, true);
   }
+  labels_pub_ = nh.advertise<visualization_msgs::MarkerArray>("belief/labels", 1, true);
   marginal_pub_ = nh.advertise<nav_msgs::OccupancyGrid>("belief/marginal", 1, true);
   pose_pub_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 1, true);
   hypotheses_pub_ = nh.advertise<visualization_msgs::MarkerArray>("hypotheses", 1, true);
 }
 
 void BeliefPublisher::place_layers(const CoarseMap& map) {
-  // To the right of the map, two by two, a tenth of its size apart.
-  const double across = 1.1 * map.width() * map.resolution();
-  const double up = 1.1 * map.height() * map.resolution();
-  const std::array<Point2, 4> places{Point2{across, 0.0}, Point2{2.0 * across, 0.0},
-                                     Point2{across, -up}, Point2{2.0 * across, -up}};
+  const double width = map.width() * map.resolution();
+  const double height = map.height() * map.resolution();
+  const double gap = kGap * height;
   std::vector<geometry_msgs::TransformStamped> transforms;
-  for (std::size_t k = 0; k < kLayerNames.size(); ++k) {
+  visualization_msgs::MarkerArray labels;
+  for (const Heading h : kHeadings) {
+    const char* const name = kLayerNames[static_cast<std::size_t>(index(h))];
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = ros::Time::now();
     transform.header.frame_id = map_frame_;
-    transform.child_frame_id = kLayerNames[k];
-    transform.transform = transform_message({places[k].x, places[k].y, 0.0});
+    transform.child_frame_id = name;
+    const double y = (1.0 - kLayerScale) * height - index(h) * (kLayerScale * height + gap);
+    transform.transform = transform_message(map.T_map_grid() * Pose2{width + gap, y, 0.0});
     transforms.push_back(transform);
+    const Point2 right{kLayerScale * width + 1.8 * gap, 0.5 * kLayerScale * height};
+    for (visualization_msgs::Marker& marker : label_of(h, right, gap)) {
+      marker.header = transform.header;
+      marker.header.frame_id = name;
+      marker.id = static_cast<int>(labels.markers.size());
+      labels.markers.push_back(marker);
+    }
   }
   static_tf_.sendTransform(transforms);
+  labels_pub_.publish(labels);
 }
 
 void BeliefPublisher::publish(const BeliefFilter& filter, std::uint32_t action_id,
@@ -91,34 +125,30 @@ void BeliefPublisher::publish_grids(const BeliefFilter& filter, const ros::Time&
   nav_msgs::OccupancyGrid grid;
   grid.header.stamp = stamp;
   grid.info = info_of(filter.map());
+  grid.info.resolution *= static_cast<float>(kLayerScale);
+  grid.info.origin = pose_message({});  // the layers' frames lie at their corners
   grid.data.resize(filter.map().occupied().size());
   const double greatest = filter.estimate().probability;
   for (const Heading h : kHeadings) {
     const auto k = static_cast<std::size_t>(index(h));
-    if (layer_pubs_[k].getNumSubscribers() > 0) {
-      grid.header.frame_id = kLayerNames[k];
-      for (std::size_t i = 0; i < grid.data.size(); ++i) {
-        const double p = filter.belief()(h, filter.map().occupied().cell_at(i));
-        grid.data[i] = filter.map().occupied()[i] != 0 ? 100 : shade_of(p, greatest);
-      }
-      layer_pubs_[k].publish(grid);
-    }
-  }
-  if (marginal_pub_.getNumSubscribers() > 0) {
-    grid.header.frame_id = map_frame_;
-    const Grid<double> p = marginal(filter.belief());
-    const double most = *std::max_element(p.values().begin(), p.values().end());
+    grid.header.frame_id = kLayerNames[k];
     for (std::size_t i = 0; i < grid.data.size(); ++i) {
-      grid.data[i] = shade_of(p[i], most);
+      const double p = filter.belief()(h, filter.map().occupied().cell_at(i));
+      grid.data[i] = filter.map().occupied()[i] != 0 ? -1 : shade_of(p, greatest);
     }
-    marginal_pub_.publish(grid);
+    layer_pubs_[k].publish(grid);
   }
+  grid.header.frame_id = map_frame_;
+  grid.info = info_of(filter.map());
+  const Grid<double> p = marginal(filter.belief());
+  const double most = *std::max_element(p.values().begin(), p.values().end());
+  for (std::size_t i = 0; i < grid.data.size(); ++i) {
+    grid.data[i] = shade_of(p[i], most);
+  }
+  marginal_pub_.publish(grid);
 }
 
 void BeliefPublisher::publish_hypotheses(const BeliefFilter& filter, const ros::Time& stamp) {
-  if (hypotheses_pub_.getNumSubscribers() == 0) {
-    return;
-  }
   visualization_msgs::MarkerArray array;
   visualization_msgs::Marker marker;
   marker.header.frame_id = map_frame_;
@@ -133,12 +163,12 @@ void BeliefPublisher::publish_hypotheses(const BeliefFilter& filter, const ros::
     const Point2 p = filter.map().center_of(e.cell);
     marker.id = static_cast<int>(array.markers.size());
     marker.pose = pose_message({p.x, p.y, yaw(e.heading) + filter.map().T_map_grid().yaw});
-    marker.pose.position.z = 0.1;
+    marker.pose.position.z = 0.05;  // above what rviz draws of the map
     marker.scale.x = std::max(0.1, 1.2 * share);
     marker.scale.y = marker.scale.z = std::max(0.03, 0.2 * share);
-    marker.color.r = 0.85F;
-    marker.color.g = 0.1F;
-    marker.color.b = 0.45F;
+    marker.color.r = 1.0F;
+    marker.color.g = 0.72F;
+    marker.color.b = 0.0F;
     marker.color.a = static_cast<float>(0.3 + 0.7 * share);
     array.markers.push_back(marker);
   }

@@ -18,8 +18,8 @@ namespace cmn {
 /// Publishes `belief`, its layers and marginal as occupancy grids for rviz, `pose` (as amcl does,
 /// covariance included) and `hypotheses`, all latched.
 ///
-/// Each layer has a frame of its own, `belief/east` and so on below the map frame, that moves it
-/// aside: rviz shows the four next to the map, and the data stay those of the map.
+/// The layers are pictures for rviz, beside the map and reduced: cell for cell those of the map, in
+/// frames of their own (`belief/east` and so on, below the map frame), labelled by `belief/labels`.
 class BeliefPublisher {
  public:
   BeliefPublisher(ros::NodeHandle& nh, std::string map_frame);
@@ -36,6 +36,7 @@ class BeliefPublisher {
   std::string map_frame_;
   ros::Publisher belief_pub_;
   std::array<ros::Publisher, 4> layer_pubs_;
+  ros::Publisher labels_pub_;
   ros::Publisher marginal_pub_;
   ros::Publisher pose_pub_;
   ros::Publisher hypotheses_pub_;
