@@ -73,8 +73,8 @@ def main():
         return SKIPPED
     if os.path.exists(picture):
         os.remove(picture)
-    subprocess.run([script, "--no-build", "--speed", "4", "--actions", "10", "--size",
-                    f"{WIDTH}x{HEIGHT}", "--out", picture], check=True)
+    subprocess.run(["timeout", "150", script, "--no-build", "--speed", "4", "--actions", "10",
+                    "--size", f"{WIDTH}x{HEIGHT}", "--out", picture], check=True)
     counts = colors_of(picture)
     distinct = len(set(counts[MAP]) | set(counts[LAYERS]))
     print(f"{picture}: {distinct} colours")
