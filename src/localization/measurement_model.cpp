@@ -14,9 +14,14 @@
 namespace cmn {
 namespace {
 
-/// Raises likelihoods to a power. Sums may have left -1e-17 where 0 is meant.
+/// Raises likelihoods to a power. Sums may have left +-1e-17 where 0 is meant: all that is not
+/// above 1e-15 is 0.
 void raise(std::vector<double>& values, double exponent) {
-  const auto cleaned = [](double value) { return value > 1e-15 ? value : 0.0; };
+  // The greater of 0 and `above`, written without the comparison that keeps loops from vectors.
+  const auto cleaned = [](double value) {
+    const double above = value - 1e-15;
+    return 0.5 * (above + std::abs(above));
+  };
   if (exponent == 2.0) {
     for (double& value : values) {
       const double likelihood = cleaned(value);
