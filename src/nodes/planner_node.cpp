@@ -15,6 +15,7 @@
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,7 +35,7 @@ class PlannerNode {
             ros::NodeHandle("~"))},
         beliefs_{"belief", 0.0},
         goals_{nh_, params_.frames.map, [this](cmn::Point2 goal) { return begin(goal); },
-               [this] { end(cmn::resting(State::kStopped, "the goal was cancelled")); }} {
+               [this] { cancel(); }} {
     action_pub_ = nh_.advertise<coarse_map_nav::DiscreteAction>("action", 1);
     path_pub_ = nh_.advertise<nav_msgs::Path>("path", 1, true);
     status_pub_ = nh_.advertise<coarse_map_nav::NavigationStatus>("status", 5, true);
@@ -79,6 +80,8 @@ class PlannerNode {
   void on_occupancy(const coarse_map_nav::LocalOccupancy& msg) {
     std::string why;
     const auto seen = cmn::local_occupancy_of(msg, why);
+    // What is of a later time was seen before time went back.
+    blocked_at_.erase(blocked_at_.upper_bound(msg.header.stamp), blocked_at_.end());
     blocked_at_[msg.header.stamp] =
         !seen || cmn::is_blocked_ahead(*seen, params_.navigator.perception.guard);
     if (blocked_at_.size() > kRecent) {
@@ -126,6 +129,12 @@ class PlannerNode {
     goals_.publish_feedback(msg.header, msg.estimate);
   }
 
+  void cancel() {
+    if (planner_) {
+      end(cmn::resting(State::kStopped, "the goal was cancelled or refused"));
+    }
+  }
+
   void end(const cmn::Decision& decision) {
     publish_status(decision);
     is_under_way_ = false;
@@ -141,7 +150,7 @@ class PlannerNode {
 
   void on_timer(const ros::TimerEvent& /*event*/) {
     if (is_under_way_ && action_.id != 0 &&
-        (ros::Time::now() - sent_).toSec() > params_.own.resend_after_s) {
+        std::abs((ros::Time::now() - sent_).toSec()) > params_.own.resend_after_s) {
       ROS_WARN_STREAM("no belief after action " << action_.id << " yet: sending it again");
       send();
     }

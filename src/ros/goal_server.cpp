@@ -8,15 +8,10 @@
 #include <vector>
 
 namespace cmn {
-namespace {
-
-/// Where the goal under way is kept, below the node's private namespace.
-constexpr const char* kUnderWay = "goal_under_way";
-
-}  // namespace
 
 GoalServer::GoalServer(ros::NodeHandle& nh, std::string map_frame, Begin begin, Cancel cancel)
     : map_frame_{std::move(map_frame)},
+      under_way_key_{nh.resolveName("goal_under_way")},
       begin_{std::move(begin)},
       cancel_{std::move(cancel)},
       server_{nh, "move_base", false} {
@@ -29,14 +24,14 @@ GoalServer::GoalServer(ros::NodeHandle& nh, std::string map_frame, Begin begin, 
 
 void GoalServer::resume() {
   std::vector<double> goal;
-  if (!ros::NodeHandle("~").getParam(kUnderWay, goal) || goal.size() != 2) {
+  if (!ros::param::get(under_way_key_, goal) || goal.size() != 2) {
     return;
   }
   ROS_INFO_STREAM("going on to the goal that was under way, " << goal[0] << ", " << goal[1]);
   geometry_msgs::PoseStamped pose;
   pose.header.frame_id = map_frame_;
   pose.pose = pose_message({goal[0], goal[1], 0.0});
-  on_simple_goal(pose);
+  end_if(accept(pose));
 }
 
 void GoalServer::publish_feedback(const std_msgs::Header& header,
@@ -50,7 +45,7 @@ void GoalServer::publish_feedback(const std_msgs::Header& header,
 }
 
 void GoalServer::finish(bool reached, const std::string& text) {
-  ros::NodeHandle("~").deleteParam(kUnderWay);
+  ros::param::del(under_way_key_);
   if (!server_.isActive()) {
     return;
   }
@@ -72,16 +67,19 @@ void GoalServer::on_simple_goal(const geometry_msgs::PoseStamped& goal) {
 
 void GoalServer::on_action_goal() {
   // As with move_base, a refused goal ends the one before as well: its client has been preempted.
-  const std::optional<std::string> reason = accept(server_.acceptNewGoal()->target_pose);
-  if (reason) {
-    ROS_ERROR_STREAM("goal refused: " << *reason);
+  end_if(accept(server_.acceptNewGoal()->target_pose));
+}
+
+void GoalServer::end_if(const std::optional<std::string>& refused) {
+  if (refused) {
+    ROS_ERROR_STREAM("goal refused: " << *refused);
     cancel_();
-    finish(false, *reason);
+    finish(false, *refused);
   }
 }
 
 void GoalServer::on_preempt() {
-  ros::NodeHandle("~").deleteParam(kUnderWay);
+  ros::param::del(under_way_key_);
   cancel_();
   server_.setPreempted();
 }
@@ -92,10 +90,17 @@ std::optional<std::string> GoalServer::accept(const geometry_msgs::PoseStamped& 
            "\"; goals are marked on the drawing, in \"" + map_frame_ + "\"";
   }
   const Point2 point{goal.pose.position.x, goal.pose.position.y};
+  // Kept before the robot moves, and before it may turn out to be there already.
+  std::vector<double> before;
+  const bool had_one = ros::param::get(under_way_key_, before);
+  ros::param::set(under_way_key_, std::vector<double>{point.x, point.y});
   const std::optional<std::string> reason = begin_(point);
   if (!reason) {
-    ros::NodeHandle("~").setParam(kUnderWay, std::vector<double>{point.x, point.y});
     goal_pub_.publish(goal);
+  } else if (had_one) {
+    ros::param::set(under_way_key_, before);
+  } else {
+    ros::param::del(under_way_key_);
   }
   return reason;
 }

@@ -43,7 +43,11 @@ class GoalServer {
   void on_preempt();
   std::optional<std::string> accept(const geometry_msgs::PoseStamped& goal);
 
+  /// What was under way ends with a goal that is refused.
+  void end_if(const std::optional<std::string>& refused);
+
   std::string map_frame_;
+  std::string under_way_key_;  ///< beside the node: below it lie only parameters that it knows
   Begin begin_;
   Cancel cancel_;
   actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction> server_;
