@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -70,6 +71,13 @@ MapPlaces read_places(const std::string& map_yaml_path) {
       throw std::runtime_error(map_yaml_path + ": default_goal must be the name of one of places" +
                                (goal.IsScalar() ? ", not " + goal.Scalar() : ""));
     }
+  }
+  if (const YAML::Node world = root["world"]) {
+    if (!world.IsScalar() || world.Scalar().empty()) {
+      throw std::runtime_error(map_yaml_path + ": world must be the path of a YAML file");
+    }
+    const std::filesystem::path folder = std::filesystem::path{map_yaml_path}.parent_path();
+    result.world = (folder / world.Scalar()).lexically_normal().string();
   }
   return result;
 }

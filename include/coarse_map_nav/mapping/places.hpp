@@ -22,6 +22,7 @@ struct Place {
 struct MapPlaces {
   std::vector<Place> places;
   std::string default_goal;  ///< the name of one of the places, or empty
+  std::string world;         ///< path of the world's YAML file that they lie in, or empty
 
   /// The place of that name, or nullptr.
   const Place* find(const std::string& name) const;
@@ -31,6 +32,7 @@ struct MapPlaces {
 ///
 ///     places: {kitchen: {world: [x, y], map: [x, y]}, ...}
 ///     default_goal: kitchen
+///     world: ../worlds/home.yaml    (relative to the map's file)
 ///
 /// Absent blocks give an empty result. Throws std::runtime_error naming the file and the key that
 /// is malformed. Neither the robot nor its planner knows `world`: it serves scoring and pictures.

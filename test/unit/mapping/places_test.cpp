@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/mapping/places.hpp"
 
+#include <filesystem>
 #include <string>
 
 #include "file_fixture.hpp"
@@ -28,10 +29,17 @@ TEST(Places, AreReadInTheOrderOfTheFile) {
   EXPECT_EQ(places.find("attic"), nullptr);
 }
 
+TEST(Places, NameTheirWorldRelativeToTheMap) {
+  const std::string path = file_with("map.yaml", "world: ../worlds/home.yaml\n");
+  const std::filesystem::path folder = std::filesystem::path{path}.parent_path();
+  EXPECT_EQ(read_places(path).world, (folder.parent_path() / "worlds/home.yaml").string());
+}
+
 TEST(Places, AreEmptyWhenAbsent) {
   const std::string path = file_with("map.yaml", "image: x.png\n");
   EXPECT_TRUE(read_places(path).places.empty());
   EXPECT_TRUE(read_places(path).default_goal.empty());
+  EXPECT_TRUE(read_places(path).world.empty());
   EXPECT_TRUE(read_starts(path).empty());
   EXPECT_TRUE(read_starts(file_with("empty.yaml", "")).empty());
 }
@@ -53,6 +61,7 @@ TEST(Places, AreRejectedByFileAndKeyWhenMalformed) {
               HasSubstr("places/a is there twice"));
   EXPECT_THAT(problem("default_goal: attic"), AllOf(HasSubstr("default_goal"), HasSubstr("attic")));
   EXPECT_THAT(problem("default_goal: [1]"), HasSubstr("default_goal"));
+  EXPECT_THAT(problem("world: [1]"), HasSubstr("world must be"));
   EXPECT_THAT(problem("- 1"), HasSubstr("top level"));
   EXPECT_THAT(problem("a: {"), HasSubstr("not YAML"));
   EXPECT_THAT(error_of([] { read_places("/nowhere/m.yaml"); }), HasSubstr("/nowhere/m.yaml"));
