@@ -19,7 +19,7 @@ void RunRecord::add(RunMoment moment) {
   ++seen_;
   if (moments_.size() > kMostMoments) {
     static_assert(kMostMoments % 2 == 0, "the last moment has an even index and stays");
-    for (std::size_t i = 0; 2 * i < moments_.size(); ++i) {
+    for (std::size_t i = 1; 2 * i < moments_.size(); ++i) {
       moments_[i] = std::move(moments_[2 * i]);
     }
     moments_.resize(kMostMoments / 2 + 1);

@@ -10,6 +10,7 @@ namespace {
 RunMoment moment_at(double time_s) {
   RunMoment moment;
   moment.time_s = time_s;
+  moment.marginal = Grid<float>(1, 1, static_cast<float>(time_s));
   return moment;
 }
 
@@ -22,6 +23,10 @@ TEST(RunRecord, KeepsFirstAndLastMomentAndSpreadsTheRestEvenly) {
     ASSERT_EQ(record.moments().back().time_s, i);
   }
   EXPECT_GT(record.moments().size(), RunRecord::kMostMoments / 3);
+  for (const RunMoment& moment : record.moments()) {
+    ASSERT_EQ(moment.marginal.size(), 1U) << "at " << moment.time_s;
+    EXPECT_EQ(moment.marginal[0], static_cast<float>(moment.time_s));
+  }
   const double step = record.moments()[1].time_s;
   for (std::size_t i = 1; i + 1 < record.moments().size(); ++i) {
     EXPECT_EQ(record.moments()[i].time_s - record.moments()[i - 1].time_s, step);
