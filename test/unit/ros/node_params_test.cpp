@@ -42,6 +42,9 @@ TEST(ShippedConfig, LoadsInEveryNodeWithoutAProblem) {
     const ParamTree tree = read_param_file(file);
     EXPECT_FALSE(tree.empty());
     EXPECT_THAT(problems_of<SimulatorNodeParams>(tree), IsEmpty());
+    if (file.find("/robots/simulated/") != std::string::npos) {
+      continue;  // the simulator's alone
+    }
     EXPECT_THAT(problems_of<MapServerParams>(tree), IsEmpty());
     EXPECT_THAT(problems_of<PerceptionNodeParams>(tree), IsEmpty());
     EXPECT_THAT(problems_of<LocalizerNodeParams>(tree), IsEmpty());
