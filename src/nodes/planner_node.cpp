@@ -16,7 +16,6 @@
 #include "coarse_map_nav/ros/node_params.hpp"
 
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -80,13 +79,8 @@ class PlannerNode {
   void on_occupancy(const coarse_map_nav::LocalOccupancy& msg) {
     std::string why;
     const auto seen = cmn::local_occupancy_of(msg, why);
-    // What is of a later time was seen before time went back.
-    blocked_at_.erase(blocked_at_.upper_bound(msg.header.stamp), blocked_at_.end());
-    blocked_at_[msg.header.stamp] =
-        !seen || cmn::is_blocked_ahead(*seen, params_.navigator.perception.guard);
-    if (blocked_at_.size() > kRecent) {
-      blocked_at_.erase(blocked_at_.begin());
-    }
+    guard_.remember(msg.header.stamp.toSec(),
+                    !seen || cmn::is_blocked_ahead(*seen, params_.navigator.perception.guard));
   }
 
   void on_result(const coarse_map_nav::MotionResult& result) {
@@ -110,12 +104,10 @@ class PlannerNode {
       beliefs_.dropped(why);
       return;
     }
-    const auto blocked = blocked_at_.find(msg.header.stamp);
-    const bool is_blocked = blocked == blocked_at_.end() || blocked->second;  // not seen, not safe
     const cmn::Decision decision =
         planner_->decide({received->belief, received->estimate, static_cast<double>(msg.confidence),
                           msg.converged != 0},
-                         is_blocked);
+                         guard_.was_blocked(msg.header.stamp.toSec()));
     const auto path = planner_->path_from(received->estimate.cell);
     path_pub_.publish(cmn::message_of(path, *map_, msg.header));
     if (decision.state == State::kReached || decision.state == State::kFailed) {
@@ -166,15 +158,13 @@ class PlannerNode {
         cmn::message_of(decision, confidence, planner_ ? planner_->actions() : 0, header));
   }
 
-  static constexpr std::size_t kRecent = 30;  ///< observations: 3 s of a LiDAR
-
   ros::NodeHandle nh_;
   cmn::NodeParams<cmn::PlannerNodeParams> params_;
   cmn::InputMonitor beliefs_;
   std::optional<cmn::CoarseMap> map_;
   std::optional<cmn::Planner> planner_;
   coarse_map_nav::Belief::ConstPtr belief_;
-  std::map<ros::Time, bool> blocked_at_;  ///< the guard's word on the last observations
+  cmn::GuardMemory guard_;
   coarse_map_nav::DiscreteAction action_;
   bool is_under_way_ = false;
   ros::Time sent_;

@@ -27,4 +27,18 @@ bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& par
   return occupied_share_ahead(seen, params.side_m) > params.occupied_share;
 }
 
+void GuardMemory::remember(double stamp_s, bool is_blocked) {
+  // What is of a later time was seen before time went back.
+  blocked_at_.erase(blocked_at_.upper_bound(stamp_s), blocked_at_.end());
+  blocked_at_[stamp_s] = is_blocked;
+  if (blocked_at_.size() > kObservations) {
+    blocked_at_.erase(blocked_at_.begin());
+  }
+}
+
+bool GuardMemory::was_blocked(double stamp_s) const {
+  const auto found = blocked_at_.find(stamp_s);
+  return found == blocked_at_.end() || found->second;
+}
+
 }  // namespace cmn

@@ -7,6 +7,9 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
+#include <cstddef>
+#include <map>
+
 namespace cmn {
 
 struct ObstacleGuardParams {
@@ -31,5 +34,17 @@ double occupied_share_ahead(const LocalOccupancy& seen, double side_m);
 
 /// Robb: the front block is more than `occupied_share` occupied.
 bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params);
+
+/// The guard's word on the last observations, for a belief that was made from one of them.
+class GuardMemory {
+ public:
+  void remember(double stamp_s, bool is_blocked);
+  /// What was said of the observation of exactly this time; one not remembered is not safe: true.
+  bool was_blocked(double stamp_s) const;
+
+ private:
+  static constexpr std::size_t kObservations = 30;  ///< 3 s of a LiDAR
+  std::map<double, bool> blocked_at_;
+};
 
 }  // namespace cmn

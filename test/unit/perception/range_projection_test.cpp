@@ -152,5 +152,26 @@ TEST(ObstacleGuard, IsBlockedByAWallInTheFrontBlockOnly) {
   EXPECT_FALSE(is_blocked_ahead(wall_at(0.0, 0.56F), params));
 }
 
+TEST(GuardMemory, KnowsWhatWasSaidAndTakesTheRestForBlocked) {
+  GuardMemory memory;
+  memory.remember(10.0, false);
+  memory.remember(10.1, true);
+  EXPECT_FALSE(memory.was_blocked(10.0));
+  EXPECT_TRUE(memory.was_blocked(10.1));
+  EXPECT_TRUE(memory.was_blocked(9.9));
+  for (int i = 0; i < 30; ++i) {
+    memory.remember(11.0 + 0.1 * i, false);
+  }
+  EXPECT_TRUE(memory.was_blocked(10.0)) << "forgotten";
+}
+
+TEST(GuardMemory, ForgetsTheFutureWhenTimeGoesBack) {
+  GuardMemory memory;
+  memory.remember(10.0, false);
+  memory.remember(5.0, false);
+  EXPECT_TRUE(memory.was_blocked(10.0));
+  EXPECT_FALSE(memory.was_blocked(5.0));
+}
+
 }  // namespace
 }  // namespace cmn
