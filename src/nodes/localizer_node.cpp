@@ -107,7 +107,9 @@ class LocalizerNode {
       T_odom_update_ = *T_odom_robot;
       publisher_.publish(*filter_, gate_.action_id(), msg->header.stamp);
     }
-    broadcast(msg->header.stamp);
+    if (msg->header.stamp != last_broadcast_) {  // perception repeats itself when it is asked to
+      broadcast(msg->header.stamp);
+    }
   }
 
   void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& msg) {
@@ -141,6 +143,7 @@ class LocalizerNode {
     transform.transform =
         cmn::transform_message(filter_->T_map_robot() * cmn::inverse(T_odom_update_));
     tf_broadcaster_.sendTransform(transform);
+    last_broadcast_ = stamp;
   }
 
   void on_timer(const ros::TimerEvent& /*event*/) {
@@ -168,6 +171,7 @@ class LocalizerNode {
   cmn::BeliefPublisher publisher_;
   cmn::InputMonitor observations_;
   cmn::Pose2 T_odom_update_;
+  ros::Time last_broadcast_;
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   tf2_ros::TransformBroadcaster tf_broadcaster_;

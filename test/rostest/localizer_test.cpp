@@ -5,6 +5,7 @@
 #include "coarse_map_nav/MotionResult.h"
 #include "coarse_map_nav/ros/conversions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -368,6 +369,28 @@ TEST_F(LocalizerTest, MapToOdomPutsTheRobotWhereThePoseIs) {
   EXPECT_NEAR(T.x, T_map_robot->x, 1e-6);
   EXPECT_NEAR(T.y, T_map_robot->y, 1e-6);
   EXPECT_NEAR(wrap_angle(T.yaw - T_map_robot->yaw), 0.0, 1e-6);
+}
+
+TEST_F(LocalizerTest, ARepeatedObservationDoesNotRepeatTheTransform) {
+  believe_anything();
+  transforms_.clear();
+  const auto stamps = [this] {
+    std::vector<ros::Time> all;
+    for (const auto& message : transforms_.all()) {
+      for (const auto& transform : message->transforms) {
+        if (transform.child_frame_id == "odom") {
+          all.push_back(transform.header.stamp);
+        }
+      }
+    }
+    return all;
+  };
+  ASSERT_TRUE(tick_until([&] {
+    occupancies_.publish(observation());  // that of the last tick
+    return stamps().size() > 10;
+  }));
+  const std::vector<ros::Time> all = stamps();
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
 }
 
 }  // namespace
