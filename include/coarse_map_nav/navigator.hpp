@@ -5,11 +5,14 @@
 #pragma once
 
 #include "coarse_map_nav/data/coarse_map.hpp"
-#include "coarse_map_nav/localization/belief_filter.hpp"
+#include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/params.hpp"
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
+
+#include <memory>
+#include <utility>
 
 namespace cmn {
 
@@ -17,31 +20,46 @@ namespace cmn {
 class Navigator {
  public:
   Navigator(const CoarseMap& map, const NavigatorParams& params)
+      : Navigator{map, params, make_localizer(map, params.localization)} {}
+  /// With a localizer of the caller's.
+  Navigator(const CoarseMap& map, const NavigatorParams& params,
+            std::unique_ptr<Localizer> localizer)
       : params_{params},
         projector_{params.perception.local_occupancy},
-        filter_{map, params.localization},
+        local_map_projector_{params.perception.local_map},
+        localizer_{std::move(localizer)},
         planner_{map, params.planning} {}
 
-  BeliefFilter& filter() { return filter_; }
+  Localizer& localizer() { return *localizer_; }
   Planner& planner() { return planner_; }
   const LocalOccupancy& seen() const { return seen_; }
+  const LocalOccupancy& local_map() const { return local_map_; }
 
   /// `scan` was taken at `T_odom_robot`, after the last action had ended with `last_outcome`.
   Decision step(const RangeScan& scan, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
+    return step(scan, projector_.project(scan), T_odom_robot, last_outcome);
+  }
+  /// With an observation for the localizer that does not come from the scan.
+  Decision step(const RangeScan& scan, LocalOccupancy seen, const Pose2& T_odom_robot,
+                MotionOutcome last_outcome) {
     planner_.action_ended(last_outcome);
-    seen_ = projector_.project(scan);
-    filter_.update(seen_, T_odom_robot);
-    return planner_.decide(
-        {filter_.belief(), filter_.estimate(), filter_.confidence(), filter_.is_converged()},
-        is_blocked_ahead(seen_, params_.perception.guard));
+    seen_ = std::move(seen);
+    if (params_.planning.needs_local_map()) {
+      local_map_ = local_map_projector_.project(scan);
+    }
+    localizer_->update(seen_, T_odom_robot);
+    return planner_.decide(localizer_->localization(),
+                           is_blocked_ahead(seen_, params_.perception.guard), &local_map_);
   }
 
  private:
   NavigatorParams params_;
   RangeProjector projector_;
-  BeliefFilter filter_;
+  RangeProjector local_map_projector_;
+  std::unique_ptr<Localizer> localizer_;
   Planner planner_;
   LocalOccupancy seen_;
+  LocalOccupancy local_map_;
 };
 
 }  // namespace cmn

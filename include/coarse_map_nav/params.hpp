@@ -17,11 +17,13 @@ namespace cmn {
 struct PerceptionParams {
   std::string source = "lidar";
   ProjectionParams local_occupancy;
+  ProjectionParams local_map{160, 8.0, 0.0};
   ObstacleGuardParams guard;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("source", self.source, OneOf{{"lidar"}}, "the sensor that local occupancy is made from");
     visit.group("local_occupancy", self.local_occupancy);
+    visit.group("local_map", self.local_map);
     visit.group("guard", self.guard);
   }
 };

@@ -48,8 +48,9 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
     step.T_world_robot = simulator.truth();
     step.decision =
         navigator.step(simulator.scan(), simulator.odometry().T_odom_robot, last_outcome);
-    step.estimate = navigator.filter().estimate();
-    step.confidence = navigator.filter().confidence();
+    const Localization at = navigator.localizer().localization();
+    step.estimate = at.estimate;
+    step.confidence = at.confidence;
     step.was_blocked = is_blocked_ahead(navigator.seen(), params.perception.guard);
     const bool is_over = step.decision.state == NavigationState::kReached ||
                          step.decision.state == NavigationState::kFailed;

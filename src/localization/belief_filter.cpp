@@ -91,12 +91,16 @@ BeliefFilter::BeliefFilter(CoarseMap map, const LocalizationParams& params)
   reset();
 }
 
-void BeliefFilter::reset() {
-  start_from(Belief::uniform(map_));
-  estimate_ = kNoEstimate;
-  forget_odometry();
-  contradictions_in_a_row_ = 0;
-  summarise();
+void BeliefFilter::reset() { restart(Belief::uniform(map_)); }
+
+void BeliefFilter::reset_heading(Heading heading) {
+  Belief known{map_.width(), map_.height()};
+  for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
+    const Cell c = map_.occupied().cell_at(i);
+    known.set_weight(heading, c, map_.is_free(c) ? 1.0 : 0.0);
+  }
+  known.normalise();
+  restart(std::move(known));
 }
 
 bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
@@ -119,11 +123,7 @@ bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
   if (!near.normalise()) {
     return false;
   }
-  start_from(std::move(near));
-  estimate_ = kNoEstimate;
-  forget_odometry();
-  contradictions_in_a_row_ = 0;
-  summarise();
+  restart(std::move(near));
   return true;
 }
 
@@ -184,6 +184,14 @@ void BeliefFilter::turn(int quarter_turns) {
   belief_.roll(quarter_turns);
   const int q = ((quarter_turns % 4) + 4) % 4;
   std::rotate(peaks_.begin(), peaks_.end() - q, peaks_.end());
+}
+
+void BeliefFilter::restart(Belief belief) {
+  start_from(std::move(belief));
+  estimate_ = kNoEstimate;
+  forget_odometry();
+  contradictions_in_a_row_ = 0;
+  summarise();
 }
 
 void BeliefFilter::start_from(Belief belief) {

@@ -52,6 +52,27 @@ double CostToGo::operator()(Cell c) const {
 
 bool CostToGo::is_reachable(Cell c) const { return std::isfinite((*this)(c)); }
 
+double CostToGo::between_cells(Point2 p_cells) const {
+  const Cell home{static_cast<int>(std::floor(p_cells.x)), static_cast<int>(std::floor(p_cells.y))};
+  if (!is_reachable(home)) {
+    return static_cast<double>(kNoWay);
+  }
+  const Cell low{static_cast<int>(std::floor(p_cells.x - 0.5)),
+                 static_cast<int>(std::floor(p_cells.y - 0.5))};
+  double cost = 0.0;
+  double weight = 0.0;
+  for (const Cell step : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{1, 1}}) {
+    const Cell c = low + step;
+    const double share =
+        (1.0 - std::abs(p_cells.x - 0.5 - c.x)) * (1.0 - std::abs(p_cells.y - 0.5 - c.y));
+    if (is_reachable(c)) {
+      cost += share * (*this)(c);
+      weight += share;
+    }
+  }
+  return cost / weight;  // home is among the four, with a share of 1/4 at the least
+}
+
 std::optional<Heading> CostToGo::next_heading(Cell from, Heading heading) const {
   const double here = (*this)(from);
   if (!std::isfinite(here)) {

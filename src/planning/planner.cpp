@@ -134,7 +134,8 @@ Decision Planner::end(NavigationState state, double distance_m, std::string text
   return *end_;
 }
 
-Decision Planner::decide(const Localization& localization, bool is_blocked_ahead) {
+Decision Planner::decide(const Localization& localization, bool is_blocked_ahead,
+                         const LocalOccupancy* local_map) {
   if (!goal_) {
     return {NavigationState::kStopped, Action{}, std::numeric_limits<double>::quiet_NaN(),
             "No goal is set."};
@@ -165,16 +166,17 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
                         ? std::string{"."}
                         : ", by the estimate " + text_of(distance_m, 1) + " m before the goal."));
   }
-  return act(localization, is_blocked_ahead || is_stuck_, distance_m);
+  return act(localization, is_blocked_ahead || is_stuck_, local_map, distance_m);
 }
 
-Decision Planner::act(const Localization& localization, bool is_blocked_ahead, double distance_m) {
+Decision Planner::act(const Localization& localization, bool is_blocked_ahead,
+                      const LocalOccupancy* local_map, double distance_m) {
   Decision decision;
   decision.distance_to_go_m = distance_m;
-  decision.action.type =
-      policy_->choose({map_, localization.belief, cost_to_go_, localization.estimate,
-                       localization.confidence, localization.is_converged, is_blocked_ahead},
-                      rng_);
+  decision.action.type = policy_->choose(
+      {map_, localization.belief, cost_to_go_, localization.estimate, localization.confidence,
+       localization.is_converged, is_blocked_ahead, is_stuck_, local_map},
+      rng_);
   if (decision.action.type == ActionType::kMoveForward) {
     decision.action.distance_m = params_.step_m;
   }

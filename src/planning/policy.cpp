@@ -3,6 +3,7 @@
 #include "coarse_map_nav/planning/policy.hpp"
 
 #include "coarse_map_nav/planning/heuristic_tree.hpp"
+#include "coarse_map_nav/planning/lattice_policy.hpp"
 #include "coarse_map_nav/planning/path_policy.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
@@ -21,8 +22,11 @@ std::unique_ptr<Policy> make_policy(const PlanningParams& params) {
   if (params.policy == "path") {
     return std::make_unique<PathPolicy>(params.explore_p_turn);
   }
+  if (params.policy == "lattice") {
+    return std::make_unique<LatticePolicy>(params.lattice, params.step_m, params.explore_p_turn);
+  }
   throw std::invalid_argument("planning policy \"" + params.policy +
-                              "\" is none of random, heuristic_tree, path");
+                              "\" is none of random, heuristic_tree, path, lattice");
 }
 
 }  // namespace cmn

@@ -9,6 +9,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/measurement_model.hpp"
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
@@ -18,11 +19,13 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace cmn {
 
 struct LocalizationParams {
+  std::string filter = "discrete";
   MotionModelParams motion;
   MeasurementModelParams measurement;
   double independence_m = 0.0;
@@ -33,6 +36,8 @@ struct LocalizationParams {
   std::uint32_t seed = 1;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
+    visit("filter", self.filter, OneOf{{"discrete"}},
+          "discrete: a belief over headings and cells (CMN, Robb)");
     visit.group("motion", self.motion);
     visit.group("measurement", self.measurement);
     visit("independence_m", self.independence_m, Between{0.0, 10.0},
@@ -51,28 +56,30 @@ struct LocalizationParams {
   }
 };
 
-/// What one look at the world did to the belief.
-enum class Correction { kApplied, kContradiction, kReopened };
-
 /// Belief over four headings x all cells: predict (CMN eq. 1), correct (CMN eq. 2 and 3).
 ///
 /// The heading of a layer is that of the odometry axis nearest to the robot, as it would lie on the
 /// drawing: the robot may stand at any yaw, and what is left over to the axis turns the
 /// observation. Mass never enters an occupied cell; mass that faces one stays. After any sequence
 /// of calls the belief sums to 1. One step costs a single pass over the belief.
-class BeliefFilter {
+class BeliefFilter : public Localizer {
  public:
   BeliefFilter(CoarseMap map, const LocalizationParams& params);
 
   /// Starts over, anywhere: uniform over the free cells of all layers.
   void reset();
+  /// Starts over anywhere on the drawing, at a known heading (CMN).
+  void reset_heading(Heading heading);
   /// Starts over near a pose of the map frame: Gaussian in position, weighted by |yaw error| over
   /// the headings. False, and nothing changed, when no free cell is near.
   bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad);
 
   /// Folds in one observation and the odometry since the one before. The first call after a reset
   /// only corrects.
-  Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot);
+  Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
+  Localization localization() const override {
+    return {belief_, estimate_, confidence_, is_converged()};
+  }
   /// The odometry frame jumped (time went back, another bag): the next update only corrects.
   void forget_odometry() { T_odom_last_.reset(); }
 
@@ -109,6 +116,7 @@ class BeliefFilter {
   /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
   void turn(int quarter_turns);
+  void restart(Belief belief);
   void start_from(Belief belief);
   Correction settle(double evidence);
   double news_in(const Displacement& driven) const;

@@ -29,6 +29,9 @@ class CostToGo {
   /// Infinite outside the map, on occupied cells and where there is no way.
   double operator()(Cell c) const;
   bool is_reachable(Cell c) const;
+  /// The same between the middles of cells: bilinear among those cells from where there is a way,
+  /// infinite where the cell of `p_cells` itself has none. [cells], cell (0, 0) from 0 to 1.
+  double between_cells(Point2 p_cells) const;
   /// Where a shortest way leads from `from`. Among equally short ones the one that asks `heading`
   /// to turn least, the left before the right: turning everything turns the answer. Nothing at the
   /// goal and where there is no way.

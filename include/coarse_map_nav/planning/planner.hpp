@@ -5,10 +5,12 @@
 #pragma once
 
 #include "coarse_map_nav/data/action.hpp"
-#include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/localization.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/planning/cost_to_go.hpp"
+#include "coarse_map_nav/planning/local_lattice.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
 
 #include <cstdint>
@@ -25,6 +27,7 @@ namespace cmn {
 struct PlanningParams {
   std::string policy = "path";
   double step_m = kCmnStep_m;
+  LatticeParams lattice;
   int tree_depth = 2;           ///< CMN's released parameters
   bool tree_diagonals = false;  ///< see HeuristicTree
   /// A turn every 1.5 m of CMN's steps. Of 0 to 0.3 it saw most of a flat in 300 and 500 actions.
@@ -33,11 +36,13 @@ struct PlanningParams {
   double reached_confidence = 0.5;
   int max_actions = 500;  ///< CMN: horizon
   std::uint32_t seed = 1;
+  bool needs_local_map() const { return policy == "lattice"; }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path"}},
-          "how the next action is chosen: CMN's baseline, CMN, Robb");
+    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path", "lattice"}},
+          "how the next action is chosen: CMN's baseline, CMN, Robb, ours");
     visit("step_m", self.step_m, Between{0.02, 2.0}, "[m] length of a forward action");
+    visit.group("lattice", self.lattice);
     visit("tree_depth", self.tree_depth, Between{2, 6}, "[actions] look-ahead of heuristic_tree");
     visit("tree_diagonals", self.tree_diagonals, Anything{},
           "heuristic_tree: the path to the goal may go along diagonals");
@@ -75,14 +80,6 @@ inline Decision resting(NavigationState state, std::string why) {
   return {state, Action{}, std::numeric_limits<double>::quiet_NaN(), std::move(why)};
 }
 
-/// What the localizer says, as the planner needs it.
-struct Localization {
-  const Belief& belief;
-  Estimate estimate;
-  double confidence = 0.0;
-  bool is_converged = false;
-};
-
 /// Holds the goal, asks the policy, declares the end.
 ///
 /// The state follows from what is given: no goal, kStopped; belief not converged, or an estimate
@@ -113,8 +110,9 @@ class Planner {
     is_stuck_ = last_action_ == ActionType::kMoveForward && outcome == MotionOutcome::kBlocked;
   }
   /// One decision; counts the actions since the goal was set. `is_blocked_ahead` is the obstacle
-  /// guard's word.
-  Decision decide(const Localization& localization, bool is_blocked_ahead);
+  /// guard's word; `local_map` is what the robot sees farther around, where the policy asks for it.
+  Decision decide(const Localization& localization, bool is_blocked_ahead,
+                  const LocalOccupancy* local_map = nullptr);
   /// The cells from `from` to the goal along the least cost; empty when there is no way or no goal.
   std::vector<Cell> path_from(Cell from) const;
   int actions() const { return actions_; }
@@ -126,7 +124,8 @@ class Planner {
   bool is_at_goal(const Localization& localization) const;
   double reachable_mass(const Belief& belief) const;
   Decision end(NavigationState state, double distance_m, std::string text);
-  Decision act(const Localization& localization, bool is_blocked_ahead, double distance_m);
+  Decision act(const Localization& localization, bool is_blocked_ahead,
+               const LocalOccupancy* local_map, double distance_m);
 
   CoarseMap map_;
   PlanningParams params_;

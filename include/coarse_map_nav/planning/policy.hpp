@@ -7,6 +7,7 @@
 #include "coarse_map_nav/data/action.hpp"
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
 
 #include <memory>
 #include <random>
@@ -24,7 +25,9 @@ struct Situation {
   Estimate estimate;
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
-  bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward
+  bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward, or is_stuck
+  bool is_stuck = false;          ///< the last action was a step forward, and ended blocked
+  const LocalOccupancy* local_map = nullptr;  ///< what is seen farther around, where it is known
 };
 
 /// Chooses one action at a time. May remember what it did; `rng` is its only source of chance.
@@ -37,7 +40,7 @@ class Policy {
 };
 
 struct PlanningParams;
-/// "random", "heuristic_tree" (CMN) or "path" (Robb), by `params.policy`.
+/// "random", "heuristic_tree" (CMN), "path" (Robb) or "lattice", by `params.policy`.
 std::unique_ptr<Policy> make_policy(const PlanningParams& params);
 
 }  // namespace cmn

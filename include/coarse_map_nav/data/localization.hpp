@@ -1,0 +1,19 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Where the robot takes itself to be.
+#pragma once
+
+#include "coarse_map_nav/data/belief.hpp"
+
+namespace cmn {
+
+/// What localization hands to planning. Refers to the localizer's belief: good until its next step.
+struct Localization {
+  const Belief& belief;
+  Estimate estimate;
+  double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
+  bool is_converged = false;
+};
+
+}  // namespace cmn

@@ -1,0 +1,157 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/episode_row.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <istream>
+#include <iterator>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+
+namespace cmn {
+namespace {
+
+/// Names and members of a row, in the order of the columns; `visit(name, member)`.
+template <class Row, class Visitor>
+void visit_columns(Row& row, Visitor&& visit) {
+  visit("task", row.key.task);
+  visit("world", row.key.world);
+  visit("mpp", row.key.mpp);
+  visit("method", row.key.method);
+  visit("index", row.key.index);
+  visit("seed", row.key.seed);
+  visit("start_x", row.T_world_start.x);
+  visit("start_y", row.T_world_start.y);
+  visit("start_yaw", row.T_world_start.yaw);
+  visit("goal_x", row.goal_world.x);
+  visit("goal_y", row.goal_world.y);
+  visit("shortest_m", row.shortest_m);
+  visit("success", row.is_success);
+  visit("success_driven_m", row.success_driven_m);
+  visit("success_actions", row.success_actions);
+  visit("declared", row.is_declared);
+  visit("declared_right", row.is_declared_right);
+  visit("actions", row.actions);
+  visit("driven_m", row.driven_m);
+  visit("converged_actions", row.converged_actions);
+  visit("converged_driven_m", row.converged_driven_m);
+  visit("falsely_converged", row.is_falsely_converged);
+  visit("collisions", row.collisions);
+  visit("closest_m", row.closest_m);
+  visit("step_ms", row.step_ms);
+  visit("end", row.end);
+}
+
+std::string text_of(const std::string& value) { return value; }
+std::string text_of(bool value) { return value ? "1" : "0"; }
+std::string text_of(int value) { return std::to_string(value); }
+std::string text_of(std::uint64_t value) { return std::to_string(value); }
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void parse(const std::string& text, std::string& value) { value = text; }
+template <class Number>
+void parse(const std::string& text, Number& value) {
+  std::size_t used = 0;
+  if constexpr (std::is_same_v<Number, double>) {
+    value = std::stod(text, &used);
+  } else if constexpr (std::is_same_v<Number, std::uint64_t>) {
+    value = std::stoull(text, &used);
+  } else {
+    value = static_cast<Number>(std::stoi(text, &used));
+  }
+  if (used != text.size()) {
+    throw std::invalid_argument(text);
+  }
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields{""};
+  for (const char c : line) {
+    if (c == ',') {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+auto order_of(const EpisodeKey& key) {
+  return std::tie(key.task, key.mpp, key.world, key.index, key.method, key.seed);
+}
+
+}  // namespace
+
+std::string EpisodeKey::id() const {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.2f", mpp);
+  return task + "-" + number + "-" + world + "-" + std::to_string(index) + "-" + method;
+}
+
+bool operator<(const EpisodeKey& a, const EpisodeKey& b) { return order_of(a) < order_of(b); }
+bool operator==(const EpisodeKey& a, const EpisodeKey& b) { return order_of(a) == order_of(b); }
+
+double EpisodeRow::spl() const {
+  return is_success ? shortest_m / std::max(shortest_m, success_driven_m) : 0.0;
+}
+
+std::string csv_header() {
+  std::string line;
+  EpisodeRow row;
+  visit_columns(row, [&line](const char* name, const auto& /*value*/) {
+    line += line.empty() ? name : std::string{","} + name;
+  });
+  return line;
+}
+
+std::string csv_line(const EpisodeRow& row) {
+  std::string line;
+  visit_columns(row, [&line](const char* name, const auto& value) {
+    line += (line.empty() && std::string{"task"} == name ? "" : ",") + text_of(value);
+  });
+  return line;
+}
+
+std::vector<EpisodeRow> read_episodes(std::istream& in, const std::string& name) {
+  const std::string text{std::istreambuf_iterator<char>{in}, std::istreambuf_iterator<char>{}};
+  std::vector<EpisodeRow> rows;
+  std::size_t number = 0;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos;
+       begin = end + 1) {
+    const std::string line = text.substr(begin, end - begin);
+    if (++number == 1) {
+      if (line != csv_header()) {
+        throw std::runtime_error(name + ":1: these are not the columns of episodes.csv");
+      }
+      continue;
+    }
+    const std::vector<std::string> fields = split(line);
+    EpisodeRow row;
+    std::size_t column = 0;
+    visit_columns(row, [&](const char* column_name, auto& value) {
+      if (column >= fields.size()) {
+        throw std::runtime_error(name + ":" + std::to_string(number) + ": too few columns");
+      }
+      try {
+        parse(fields[column++], value);
+      } catch (const std::exception&) {
+        throw std::runtime_error(name + ":" + std::to_string(number) + ": " + column_name +
+                                 " is no number: \"" + fields[column - 1] + "\"");
+      }
+    });
+    if (column != fields.size()) {
+      throw std::runtime_error(name + ":" + std::to_string(number) + ": too many columns");
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace cmn
