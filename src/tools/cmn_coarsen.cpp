@@ -1,15 +1,22 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// cmn_coarsen: a metric map -> the coarse grid that a robot is given.
+/// cmn_coarsen: a metric map -> the coarse map that a robot is given.
 
-#include "coarse_map_nav/mapping/downsample.hpp"
+#include "coarse_map_nav/evaluation/drawing.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/map_writer.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
+#include <functional>
+#include <iomanip>
 #include <iostream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -19,16 +26,47 @@ namespace {
 
 namespace po = boost::program_options;
 
+constexpr double kPlacesApart = 2.0;  // [m]
+
+/// Where points of the world lie on the drawing: the block that read_places() knows, for a lattice
+/// over the free ground.
+void write_places(const std::string& path, const std::string& world_path,
+                  const cmn::CoarseMap& world, const cmn::Drawing& drawing) {
+  std::ofstream out{path};
+  out << std::setprecision(9) << "# The truth about a drawing, for scoring; no robot may read it.\n"
+      << "# map metres a world metre, on average\nscale: " << drawing.scale()
+      << "\nquarter_turns: " << drawing.quarter_turns() << "\n# drawn from " << world_path
+      << "\nplaces:\n";
+  const int stride = std::max(1, static_cast<int>(std::lround(kPlacesApart / world.resolution())));
+  for (int y = stride / 2; y < world.height(); y += stride) {
+    for (int x = stride / 2; x < world.width(); x += stride) {
+      if (world.is_free({x, y})) {
+        const cmn::Point2 p = world.center_of({x, y});
+        const cmn::Point2 q = drawing.world_to_map(p);
+        out << "  p" << x / stride << "_" << y / stride << ": {world: [" << p.x << ", " << p.y
+            << "], map: [" << q.x << ", " << q.y << "]}\n";
+      }
+    }
+  }
+  if (!out.flush()) {
+    throw std::runtime_error(path + ": cannot be written; does the folder exist?");
+  }
+}
+
 int run(int argc, char** argv) {
   po::options_description options{
       "cmn_coarsen WORLD.yaml --mpp 0.4 --out X.yaml\n\n"
-      "Makes a metric map (map_server format) coarse: a cell is occupied when more than half of "
-      "it\n"
-      "is. Unknown counts as occupied. Writes X.yaml and X.png at the same place in the map "
-      "frame.\n"
+      "Makes the map for a robot from a metric one (map_server format; unknown counts as\n"
+      "occupied) and writes X.yaml and X.png:\n"
+      "  --kind grid        a cell is occupied when more than half of it is\n"
+      "  --kind walls       the same without the free-standing furniture\n"
+      "  --kind hand_drawn  as a person might draw it: out of proportion, turned, in an unknown\n"
+      "                     scale; also writes X_places.yaml, which says what lies where\n"
       "Options"};
   options.add_options()("help", "print this")("world", po::value<std::string>(), "the metric map")(
+      "kind", po::value<std::string>()->default_value("grid"), "grid, walls or hand_drawn")(
       "mpp", po::value<double>()->default_value(0.4), "metres per pixel (cell) of the coarse map")(
+      "seed", po::value<std::uint32_t>()->default_value(1), "which of all drawings")(
       "out", po::value<std::string>(), "the map to write, .yaml");
   po::variables_map given;
   po::store(po::command_line_parser(argc, argv)
@@ -43,8 +81,24 @@ int run(int argc, char** argv) {
   if (given.count("world") == 0 || given.count("out") == 0) {
     throw std::runtime_error("WORLD.yaml and --out X.yaml are needed; --help explains");
   }
-  const cmn::CoarseMap world = cmn::read_map(given["world"].as<std::string>());
-  const cmn::CoarseMap coarse = cmn::downsampled(world, given["mpp"].as<double>());
+  const auto mpp = given["mpp"].as<double>();
+  const auto seed = given["seed"].as<std::uint32_t>();
+  using Draw = std::function<cmn::Drawing(const cmn::CoarseMap&)>;
+  const std::map<std::string, Draw> kinds{
+      {"grid", [&](const cmn::CoarseMap& world) { return cmn::coarse_grid(world, mpp); }},
+      {"walls", [&](const cmn::CoarseMap& world) { return cmn::walls_only(world, mpp); }},
+      {"hand_drawn",
+       [&](const cmn::CoarseMap& world) { return cmn::hand_drawn(world, mpp, seed); }}};
+  const auto kind = kinds.find(given["kind"].as<std::string>());
+  if (kind == kinds.end()) {
+    throw std::runtime_error("--kind " + given["kind"].as<std::string>() +
+                             " is unknown; there are grid, walls and hand_drawn");
+  }
+
+  const std::string world_path = given["world"].as<std::string>();
+  const cmn::CoarseMap world = cmn::read_map(world_path);
+  const cmn::Drawing drawing = kind->second(world);
+  const cmn::CoarseMap& coarse = drawing.map();
   if (coarse.free_count() == 0) {
     throw std::runtime_error("no cell is left free at " + std::to_string(coarse.resolution()) +
                              " m per cell: take a smaller --mpp");
@@ -53,6 +107,11 @@ int run(int argc, char** argv) {
   cmn::write_map(out, coarse);
   std::cout << out << ": " << coarse.width() << " x " << coarse.height() << " cells of "
             << coarse.resolution() << " m, " << coarse.free_count() << " free\n";
+  if (kind->first == "hand_drawn") {
+    write_places(out.substr(0, out.rfind('.')) + "_places.yaml", world_path, world, drawing);
+    std::cout << "drawn at " << drawing.scale() << " of the nominal scale, turned by "
+              << drawing.quarter_turns() << " quarter turns to the left\n";
+  }
   return EXIT_SUCCESS;
 }
 

@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/drawing.hpp"
+
+#include "coarse_map_nav/mapping/downsample.hpp"
+
+#include <utility>
+
+namespace cmn {
+
+Drawing::Drawing(CoarseMap map) : Drawing{std::move(map), SmoothWarp{}, 1.0, 0, {}, 1.0} {}
+
+Drawing::Drawing(CoarseMap map, SmoothWarp warp, double scale, int quarter_turns, Point2 shift,
+                 double mean_scale)
+    : content_{std::make_shared<const Content>(
+          Content{std::move(map), std::move(warp), scale, quarter_turns, shift, mean_scale})} {}
+
+Point2 Drawing::world_to_map(Point2 world) const {
+  const Content& c = *content_;
+  return c.shift + c.scale * turned(c.warp(world), c.quarter_turns * kPi / 2.0);
+}
+
+Point2 Drawing::map_to_world(Point2 map) const {
+  const Content& c = *content_;
+  return c.warp.inverse(turned((1.0 / c.scale) * (map - c.shift), -c.quarter_turns * kPi / 2.0));
+}
+
+Pose2 Drawing::world_to_map(const Pose2& T_world_robot) const {
+  const Point2 p = world_to_map(T_world_robot.position());
+  const double turn = jacobian(T_world_robot.position()).rotation();
+  return {p.x, p.y, wrap_angle(T_world_robot.yaw + turn)};
+}
+
+Pose2 Drawing::map_to_world(const Pose2& T_map_robot) const {
+  const Point2 p = map_to_world(T_map_robot.position());
+  return {p.x, p.y, wrap_angle(T_map_robot.yaw - jacobian(p).rotation())};
+}
+
+Jacobian2 Drawing::jacobian(Point2 world) const {
+  const Content& c = *content_;
+  const Jacobian2 j = c.warp.jacobian(world);
+  const Point2 x = c.scale * turned(Point2{j.xx, j.yx}, c.quarter_turns * kPi / 2.0);
+  const Point2 y = c.scale * turned(Point2{j.xy, j.yy}, c.quarter_turns * kPi / 2.0);
+  return {x.x, y.x, x.y, y.y};
+}
+
+Drawing coarse_grid(const CoarseMap& world, double mpp) { return Drawing{downsampled(world, mpp)}; }
+
+Drawing walls_only(const CoarseMap& world, double mpp, const WallParams& params) {
+  return coarse_grid(without_furniture(world, params), mpp);
+}
+
+}  // namespace cmn
