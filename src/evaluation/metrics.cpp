@@ -1,0 +1,161 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/metrics.hpp"
+
+#include "coarse_map_nav/data/random.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <random>
+
+namespace cmn {
+namespace {
+
+constexpr double kNormal975 = 1.959963984540054;  ///< 97.5 % of a normal variable lie below it
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Quantile of sorted values, linear between neighbours.
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<std::size_t>(at);
+  const std::size_t next = std::min(i + 1, sorted.size() - 1);
+  return sorted[i] + (at - static_cast<double>(i)) * (sorted[next] - sorted[i]);
+}
+
+/// P(at most `k` heads in `n` fair tosses).
+double fair_tail(int k, int n) {
+  double tail = 0.0;
+  for (int i = 0; i <= k; ++i) {
+    tail += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) -
+                     n * std::log(2.0));
+  }
+  return tail;
+}
+
+}  // namespace
+
+Figure wilson_share(int successes, int trials) {
+  assert(successes >= 0 && successes <= trials);
+  if (trials == 0) {
+    return {};
+  }
+  const double n = trials;
+  const double p = successes / n;
+  const double z2 = kNormal975 * kNormal975;
+  const double middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+  const double half =
+      kNormal975 * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n)) / (1.0 + z2 / n);
+  // At the ends the formula gives exactly 0 and 1; rounding must not carry it beyond.
+  return {p, successes == 0 ? 0.0 : middle - half, successes == trials ? 1.0 : middle + half};
+}
+
+Figure bootstrap_mean(std::vector<double> values, std::uint64_t seed, int resamples) {
+  assert(resamples > 0);
+  if (values.empty()) {
+    return {};
+  }
+  std::sort(values.begin(), values.end());
+  std::mt19937_64 rng{seed};
+  std::vector<double> means(static_cast<std::size_t>(resamples));
+  for (double& resampled : means) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      sum += values[draw_index(rng, values.size())];
+    }
+    resampled = sum / static_cast<double>(values.size());
+  }
+  std::sort(means.begin(), means.end());
+  return {mean(values), quantile(means, 0.025), quantile(means, 0.975)};
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  std::sort(values.begin(), values.end());
+  return quantile(values, 0.5);
+}
+
+Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
+  Metrics metrics;
+  int successes = 0;
+  int right = 0;
+  int wrong = 0;
+  int false_convergences = 0;
+  int collisions = 0;
+  double driven_m = 0.0;
+  double actions = 0.0;
+  double time_ms = 0.0;
+  std::vector<double> spl;
+  std::vector<double> converged_actions;
+  std::vector<double> converged_driven_m;
+  for (const EpisodeRow& row : rows) {
+    successes += row.is_success;
+    right += row.is_declared && row.is_declared_right;
+    wrong += row.is_declared && !row.is_declared_right;
+    collisions += row.collisions;
+    driven_m += row.driven_m;
+    actions += row.actions;
+    time_ms += row.actions * row.step_ms;
+    spl.push_back(row.spl());
+    if (row.converged_actions >= 0) {
+      false_convergences += row.is_falsely_converged;
+      converged_actions.push_back(row.converged_actions);
+      converged_driven_m.push_back(row.converged_driven_m);
+    }
+  }
+  const auto n = static_cast<int>(rows.size());
+  const auto converged = static_cast<int>(converged_actions.size());
+  metrics.episodes = n;
+  metrics.success = wilson_share(successes, n);
+  metrics.spl = bootstrap_mean(std::move(spl));
+  metrics.declared_right = wilson_share(right, n);
+  metrics.declared_wrong = wilson_share(wrong, n);
+  metrics.converged = wilson_share(converged, n);
+  metrics.falsely_converged = wilson_share(false_convergences, converged);
+  metrics.median_converged_actions = median(std::move(converged_actions));
+  metrics.median_converged_driven_m = median(std::move(converged_driven_m));
+  if (driven_m > 0.0) {
+    metrics.collisions_per_100_m = 100.0 * collisions / driven_m;
+  }
+  if (n > 0) {
+    metrics.mean_actions = actions / n;
+  }
+  if (actions > 0.0) {
+    metrics.step_ms = time_ms / actions;
+  }
+  return metrics;
+}
+
+PairedSuccess paired_success(const std::vector<EpisodeRow>& first,
+                             const std::vector<EpisodeRow>& second) {
+  const auto without_method = [](EpisodeKey key) {
+    key.method.clear();
+    return key;
+  };
+  std::map<EpisodeKey, bool> successes;
+  for (const EpisodeRow& row : second) {
+    successes[without_method(row.key)] = row.is_success;
+  }
+  PairedSuccess pairs;
+  for (const EpisodeRow& row : first) {
+    const auto other = successes.find(without_method(row.key));
+    if (other != successes.end()) {
+      ++pairs.episodes;
+      pairs.only_first += row.is_success && !other->second;
+      pairs.only_second += !row.is_success && other->second;
+    }
+  }
+  const int n = pairs.only_first + pairs.only_second;
+  pairs.p_value = std::min(1.0, 2.0 * fair_tail(std::min(pairs.only_first, pairs.only_second), n));
+  return pairs;
+}
+
+}  // namespace cmn
