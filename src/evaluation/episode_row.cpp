@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <istream>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -87,6 +88,21 @@ auto order_of(const EpisodeKey& key) {
   return std::tie(key.task, key.mpp, key.world, key.index, key.method, key.seed);
 }
 
+/// "success 1 or 0, driven_m 3.5 or 4": the columns in which two rows differ; "" for none.
+std::string differences(EpisodeRow a, EpisodeRow b) {
+  a.step_ms = b.step_ms = 0.0;
+  const std::vector<std::string> names = split(csv_header());
+  const std::vector<std::string> fields_a = split(csv_line(a));
+  const std::vector<std::string> fields_b = split(csv_line(b));
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (fields_a[i] != fields_b[i]) {
+      text += (text.empty() ? "" : ", ") + names[i] + " " + fields_a[i] + " or " + fields_b[i];
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string EpisodeKey::id() const {
@@ -151,6 +167,36 @@ std::vector<EpisodeRow> read_episodes(std::istream& in, const std::string& name)
     }
     rows.push_back(row);
   }
+  return rows;
+}
+
+std::vector<EpisodeRow> merge_episodes(const std::vector<std::vector<EpisodeRow>>& runs) {
+  std::map<std::string, EpisodeRow> by_id;
+  constexpr int kMostNamed = 10;
+  int conflicts = 0;
+  std::string conflict_text;
+  for (const std::vector<EpisodeRow>& run : runs) {
+    for (const EpisodeRow& row : run) {
+      const auto [known, is_new] = by_id.emplace(row.key.id(), row);
+      const std::string difference = is_new ? "" : differences(known->second, row);
+      if (!difference.empty() && ++conflicts <= kMostNamed) {
+        conflict_text += "\n  " + row.key.id() + ": " + difference;
+      }
+    }
+  }
+  if (conflicts > 0) {
+    throw std::runtime_error(std::to_string(conflicts) +
+                             (conflicts == 1 ? " episode" : " episodes") +
+                             " came out differently in the runs to be merged; were they "
+                             "made with the same options, seed and version?" +
+                             conflict_text + (conflicts > kMostNamed ? "\n  ..." : ""));
+  }
+  std::vector<EpisodeRow> rows;
+  for (const auto& [id, row] : by_id) {
+    rows.push_back(row);
+  }
+  std::sort(rows.begin(), rows.end(),
+            [](const EpisodeRow& a, const EpisodeRow& b) { return a.key < b.key; });
   return rows;
 }
 

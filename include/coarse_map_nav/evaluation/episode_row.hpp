@@ -65,4 +65,9 @@ std::string csv_line(const EpisodeRow& row);
 /// interrupted run) is left out.
 std::vector<EpisodeRow> read_episodes(std::istream& in, const std::string& name);
 
+/// All rows of several runs, sorted, each episode once. The same episode may occur in several of
+/// them when it came out the same (step_ms aside). Throws std::runtime_error naming up to ten
+/// episodes that differ and in what.
+std::vector<EpisodeRow> merge_episodes(const std::vector<std::vector<EpisodeRow>>& runs);
+
 }  // namespace cmn
