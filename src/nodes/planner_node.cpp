@@ -104,10 +104,10 @@ class PlannerNode {
       beliefs_.dropped(why);
       return;
     }
-    const cmn::Decision decision =
-        planner_->decide({received->belief, received->estimate, static_cast<double>(msg.confidence),
-                          msg.converged != 0},
-                         guard_.was_blocked(msg.header.stamp.toSec()));
+    const cmn::Decision decision = planner_->decide(
+        {received->belief, received->estimate, cmn::middle_of(received->estimate.cell),
+         static_cast<double>(msg.confidence), msg.converged != 0},
+        guard_.was_blocked(msg.header.stamp.toSec()));
     const auto path = planner_->path_from(received->estimate.cell);
     path_pub_.publish(cmn::message_of(path, *map_, msg.header));
     if (decision.state == State::kReached || decision.state == State::kFailed) {

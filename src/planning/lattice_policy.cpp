@@ -34,9 +34,8 @@ ActionType LatticePolicy::choose(const Situation& situation, std::mt19937_64& rn
   std::size_t best = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Point2 ahead = turned(lattice_.position_of(states[i]), yaw(at.heading));
-    const double to_go_m =
-        cell_m * situation.cost_to_go.between_cells(
-                     {at.cell.x + 0.5 + ahead.x / cell_m, at.cell.y + 0.5 + ahead.y / cell_m});
+    const double to_go_m = cell_m * situation.cost_to_go.between_cells(situation.position_cells +
+                                                                       (1.0 / cell_m) * ahead);
     if (states[i].cost_m + to_go_m < least_m) {
       least_m = states[i].cost_m + to_go_m;
       best = i;

@@ -174,8 +174,8 @@ Decision Planner::act(const Localization& localization, bool is_blocked_ahead,
   Decision decision;
   decision.distance_to_go_m = distance_m;
   decision.action.type = policy_->choose(
-      {map_, localization.belief, cost_to_go_, localization.estimate, localization.confidence,
-       localization.is_converged, is_blocked_ahead, is_stuck_, local_map},
+      {map_, localization.belief, cost_to_go_, localization.estimate, localization.position_cells,
+       localization.confidence, localization.is_converged, is_blocked_ahead, is_stuck_, local_map},
       rng_);
   if (decision.action.type == ActionType::kMoveForward) {
     decision.action.distance_m = params_.step_m;

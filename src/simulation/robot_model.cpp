@@ -38,6 +38,25 @@ double free_share(const World& world, Point2 from, Point2 way, double radius_m) 
 
 }  // namespace
 
+Passage pass(const World& world, Point2 from, Point2 way, const RobotParams& params) {
+  const double share = free_share(world, from, way, params.radius_m);
+  Point2 moved = share * way;
+  if (share < 1.0 && params.sliding) {
+    // What is left of the way goes on along the wall: its part towards the contact is taken out.
+    const Point2 at = from + moved;
+    const double reach_m = params.radius_m + norm(way);
+    if (const auto contact = world.nearest_obstacle(at, reach_m)) {
+      const Point2 out = at - *contact;
+      const Point2 rest = (1.0 - share) * way;
+      const double square = out.x * out.x + out.y * out.y;
+      const double inward = square > 0.0 ? (rest.x * out.x + rest.y * out.y) / square : 0.0;
+      const Point2 along = rest - inward * out;
+      moved = moved + free_share(world, at, along, params.radius_m) * along;
+    }
+  }
+  return {share < 1.0, moved};
+}
+
 RobotModel::RobotModel(const RobotParams& params, const Pose2& T_world_start, std::uint32_t seed)
     : params_{params}, rng_{seed} {
   state_.T_world_robot = T_world_start;
@@ -59,28 +78,6 @@ VelocityCommand RobotModel::delayed(double time_s, VelocityCommand command) {
     under_way_.pop_front();
   }
   return acting_;
-}
-
-RobotModel::Moved RobotModel::move(const World& world, Point2 way) {
-  const Point2 from = state_.T_world_robot.position();
-  const double share = free_share(world, from, way, params_.radius_m);
-  Point2 moved = share * way;
-  if (share < 1.0 && params_.sliding) {
-    // What is left of the way goes on along the wall: its part towards the contact is taken out.
-    const Point2 at = from + moved;
-    const double reach_m = params_.radius_m + norm(way);
-    if (const auto contact = world.nearest_obstacle(at, reach_m)) {
-      const Point2 out = at - *contact;
-      const Point2 rest = (1.0 - share) * way;
-      const double square = out.x * out.x + out.y * out.y;
-      const double inward = square > 0.0 ? (rest.x * out.x + rest.y * out.y) / square : 0.0;
-      const Point2 along = rest - inward * out;
-      moved = moved + free_share(world, at, along, params_.radius_m) * along;
-    }
-  }
-  state_.T_world_robot.x += moved.x;
-  state_.T_world_robot.y += moved.y;
-  return {share < 1.0, moved};
 }
 
 void RobotModel::press_bumper(bool collided) {
@@ -127,7 +124,9 @@ void RobotModel::step(const World& world, double time_s, double dt_s, VelocityCo
 
   const double course = state_.T_world_robot.yaw + turn / 2.0;
   const Point2 ahead{std::cos(course), std::sin(course)};
-  const auto [collided, moved] = move(world, way * ahead);
+  const auto [collided, moved] = pass(world, state_.T_world_robot.position(), way * ahead, params_);
+  state_.T_world_robot.x += moved.x;
+  state_.T_world_robot.y += moved.y;
   state_.T_world_robot.yaw = wrap_angle(state_.T_world_robot.yaw + turn);
   state_.driven_m += norm(moved);
   // A pivot beside a wall may slip against it; only wheels that drive collide.

@@ -71,6 +71,8 @@ constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; 
 constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 constexpr Point2 operator*(double k, Point2 a) { return {k * a.x, k * a.y}; }
 inline double norm(Point2 a) { return std::hypot(a.x, a.y); }
+/// The middle of a cell, in cells.
+constexpr Point2 middle_of(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
 /// `p` turned about the origin by `angle_rad` to the left.
 inline Point2 turned(Point2 p, double angle_rad) {
   const double c = std::cos(angle_rad);

@@ -12,6 +12,8 @@ namespace cmn {
 struct Localization {
   const Belief& belief;
   Estimate estimate;
+  /// Finer than the estimate's cell: x, y in cells of the grid, cell (0, 0) from 0 to 1.
+  Point2 position_cells;
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
 };

@@ -78,7 +78,7 @@ class BeliefFilter : public Localizer {
   /// only corrects.
   Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
   Localization localization() const override {
-    return {belief_, estimate_, confidence_, is_converged()};
+    return {belief_, estimate_, middle_of(estimate_.cell), confidence_, is_converged()};
   }
   /// The odometry frame jumped (time went back, another bag): the next update only corrects.
   void forget_odometry() { T_odom_last_.reset(); }

@@ -23,6 +23,7 @@ struct Situation {
   const Belief& belief;
   const CostToGo& cost_to_go;  ///< towards the goal, of the whole map
   Estimate estimate;
+  Point2 position_cells;    ///< finer than its cell
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
   bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward, or is_stuck

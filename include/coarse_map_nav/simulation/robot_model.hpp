@@ -75,6 +75,15 @@ struct RobotState {
   int collisions = 0;        ///< number of times that `bumped` came on
 };
 
+/// How far a disc came.
+struct Passage {
+  bool collided = false;
+  Point2 way;  ///< really gone
+};
+/// Moves the robot's disc a short way (less than its radius) through the world: to the contact, and
+/// on along the wall where `params.sliding`.
+Passage pass(const World& world, Point2 from, Point2 way, const RobotParams& params);
+
 /// Integrates a RobotState under velocity commands.
 ///
 /// Wheels follow the command within the acceleration limits. Each wheel's true way differs from the
@@ -97,11 +106,6 @@ class RobotModel {
     VelocityCommand command;
   };
   VelocityCommand delayed(double time_s, VelocityCommand command);
-  struct Moved {
-    bool collided;
-    Point2 way;  ///< really gone
-  };
-  Moved move(const World& world, Point2 way);
   void press_bumper(bool collided);
   double gaussian() { return normal_(rng_); }
 

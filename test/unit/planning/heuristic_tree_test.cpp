@@ -107,7 +107,7 @@ TEST(HeuristicTree, WandersWhereTheEstimateHasNoWay) {
   for (const bool diagonals : {false, true}) {
     HeuristicTree policy{2, diagonals, 0.0};
     std::mt19937_64 rng{1};
-    Situation situation{map, belief, cost, Estimate{Heading::kEast, {3, 0}, 1.0}};
+    Situation situation{map, belief, cost, Estimate{Heading::kEast, {3, 0}, 1.0}, {3.5, 0.5}};
     EXPECT_EQ(policy.choose(situation, rng), kForward);
     situation.is_blocked_ahead = true;
     EXPECT_NE(policy.choose(situation, rng), kForward);

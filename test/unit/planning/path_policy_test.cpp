@@ -22,7 +22,8 @@ constexpr auto kRight = ActionType::kTurnRight;
 class PathPolicyTest : public testing::Test {
  protected:
   Situation at(Heading heading, Cell cell, bool is_blocked_ahead = false) const {
-    return {map_, belief_, cost_, Estimate{heading, cell, 1.0}, 1.0, true, is_blocked_ahead};
+    return {map_, belief_, cost_,           Estimate{heading, cell, 1.0}, middle_of(cell),
+            1.0,  true,    is_blocked_ahead};
   }
   CoarseMap map_ = ascii_map({
       "....",

@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/task.hpp"
+
+#include <stdexcept>
+
+namespace cmn {
+namespace {
+
+const std::vector<Task>& tasks() {
+  using D = DrawingKind;
+  using O = ObservationKind;
+  static const std::vector<Task> kTasks{
+      {"CG", D::kCoarseGrid, O::kTrueCrop, true, true},
+      {"CL", D::kCoarseGrid, O::kLidar, false, false},
+      {"CF", D::kCoarseGrid, O::kForwardLidar, false, false},
+      {"HL", D::kHandDrawn, O::kLidar, false, false},
+      {"WL", D::kWallsOnly, O::kLidar, false, false},
+  };
+  return kTasks;
+}
+
+}  // namespace
+
+const Task& find_task(const std::string& name) {
+  std::string known;
+  for (const Task& task : tasks()) {
+    if (task.name == name) {
+      return task;
+    }
+    known += (known.empty() ? "" : ", ") + task.name;
+  }
+  throw std::invalid_argument("task \"" + name + "\" is none of " + known);
+}
+
+Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, double mpp,
+             std::uint32_t seed) {
+  switch (task.drawing) {
+    case DrawingKind::kHandDrawn:
+      return hand_drawn(world, mpp, seed);
+    case DrawingKind::kWallsOnly:
+      return walls != nullptr ? coarse_grid(*walls, mpp) : walls_only(world, mpp);
+    case DrawingKind::kCoarseGrid:
+      break;
+  }
+  return coarse_grid(world, mpp);
+}
+
+}  // namespace cmn
