@@ -68,8 +68,7 @@ class BeliefFilter : public Localizer {
 
   /// Starts over, anywhere: uniform over the free cells of all layers.
   void reset();
-  /// Starts over anywhere on the drawing, at a known heading (CMN).
-  void reset_heading(Heading heading);
+  void reset_heading(Heading heading) override;
   /// Starts over near a pose of the map frame: Gaussian in position, weighted by |yaw error| over
   /// the headings. False, and nothing changed, when no free cell is near.
   bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad);

@@ -19,6 +19,7 @@ class GivenPose : public Localizer {
   Correction update(const LocalOccupancy& /*seen*/, const Pose2& /*T_odom_robot*/) override {
     return Correction::kApplied;
   }
+  void reset_heading(Heading /*heading*/) override {}
   Localization localization() const override {
     return {belief_, estimate_, position_cells_, 1.0, true};
   }

@@ -21,6 +21,8 @@ class Localizer {
   /// Folds in one observation and the odometry since the one before. The first call after a start
   /// or a reset only corrects.
   virtual Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) = 0;
+  /// Starts over anywhere on the drawing, at a known heading (CMN).
+  virtual void reset_heading(Heading heading) = 0;
   /// Good until the next call of update().
   virtual Localization localization() const = 0;
 };

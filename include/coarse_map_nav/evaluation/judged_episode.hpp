@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// One episode under the eyes of the judge.
+#pragma once
+
+#include "coarse_map_nav/evaluation/drawing.hpp"
+#include "coarse_map_nav/evaluation/episode_row.hpp"
+#include "coarse_map_nav/evaluation/method.hpp"
+#include "coarse_map_nav/evaluation/route_sampler.hpp"
+#include "coarse_map_nav/evaluation/task.hpp"
+#include "coarse_map_nav/simulation/simulator.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace cmn {
+
+struct JudgeParams {
+  double success_radius_m = 0.4;   ///< CMN's released parameters
+  double declared_radius_m = 1.0;  ///< of a REACHED that counts as right
+  double least_way_m = 3.0;
+  double most_way_m = 20.0;
+  SimulationParams simulation;
+};
+
+/// A world that episodes are played in, made ready once.
+struct Scene {
+  Scene(std::string scene_name, CoarseMap world_map, std::optional<CoarseMap> wall_map,
+        const JudgeParams& judge);
+
+  std::string name;
+  CoarseMap map;
+  std::optional<CoarseMap> walls;  ///< of a generated house
+  World world;
+  RouteSampler routes;
+  CoarseMap drivable;  ///< where the middle of the robot can be: what the oracle plans on
+};
+
+/// The start and goal of an episode whose goal is free on the drawing, or none.
+std::optional<Route> sample_route(const Scene& scene, const Drawing& drawing,
+                                  const JudgeParams& judge, std::uint64_t seed);
+
+/// What a recorder may look at before each action is carried out.
+struct EpisodeMoment {
+  Pose2 T_world_robot;
+  Localization localization;
+  Pose2 T_map_true;
+  const Decision& decision;
+  const LocalOccupancy& local_map;
+};
+using EpisodeRecorder = std::function<void(const EpisodeMoment&)>;
+
+/// Runs a method until it declares an end, the horizon of its parameters is over or, where the
+/// judge ends episodes, success. Deterministic but for step_ms. `clock_s` times the steps.
+EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawing& drawing,
+                              const Route& route, const Method& method, NavigatorParams params,
+                              const JudgeParams& judge, const EpisodeKey& key,
+                              const std::function<double()>& clock_s,
+                              const EpisodeRecorder& recorder = {});
+
+}  // namespace cmn

@@ -1,0 +1,264 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/judged_episode.hpp"
+
+#include "coarse_map_nav/data/random.hpp"
+#include "coarse_map_nav/localization/belief_filter.hpp"
+#include "coarse_map_nav/localization/given_pose.hpp"
+#include "coarse_map_nav/mapping/regions.hpp"
+#include "coarse_map_nav/navigator.hpp"
+#include "coarse_map_nav/simulation/range_sensor.hpp"
+#include "coarse_map_nav/simulation/step_drive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace cmn {
+namespace {
+
+constexpr double kDrivableCell_m = 0.1;
+constexpr int kCropCells = 3;
+constexpr double kCropCell_m = 1.28 / kCropCells;
+
+CoarseMap drivable_map(const World& world, const CoarseMap& extent, double radius_m) {
+  const int width = static_cast<int>(extent.width() * extent.resolution() / kDrivableCell_m);
+  const int height = static_cast<int>(extent.height() * extent.resolution() / kDrivableCell_m);
+  Grid<std::uint8_t> occupied{width, height, 1};
+  CoarseMap map{occupied, kDrivableCell_m, extent.T_map_grid()};
+  for (std::size_t i = 0; i < occupied.size(); ++i) {
+    occupied[i] = world.is_disc_free(map.center_of(occupied.cell_at(i)), radius_m) ? 0 : 1;
+  }
+  return largest_region({std::move(occupied), kDrivableCell_m, extent.T_map_grid()}).map;
+}
+
+/// Each cell cut into as many as bring it near `cell_m`, at the true scale.
+CoarseMap metric(const CoarseMap& drawing, double scale, double cell_m) {
+  const double true_cell_m = drawing.resolution() / scale;
+  const int cuts = std::max(1, static_cast<int>(std::lround(true_cell_m / cell_m)));
+  Grid<std::uint8_t> occupied{drawing.width() * cuts, drawing.height() * cuts};
+  for (std::size_t i = 0; i < occupied.size(); ++i) {
+    const Cell c = occupied.cell_at(i);
+    occupied[i] = drawing.occupied()({c.x / cuts, c.y / cuts});
+  }
+  Pose2 T_map_grid = drawing.T_map_grid();
+  T_map_grid.x /= scale;
+  T_map_grid.y /= scale;
+  return {std::move(occupied), true_cell_m / cuts, T_map_grid};
+}
+
+/// CMN's "grid observation": the crop of the map about the robot, in its axes.
+LocalOccupancy true_crop(const CoarseMap& map, const Pose2& T_map_robot) {
+  LocalOccupancy crop{kCropCells, kCropCell_m};
+  const Cell home = map.cell_of(T_map_robot.position());
+  const int quarters = nearest_quarter(T_map_robot.yaw - map.T_map_grid().yaw);
+  for (int iy = 0; iy < kCropCells; ++iy) {
+    for (int ix = 0; ix < kCropCells; ++ix) {
+      const Cell c = home + turned(Cell{ix - kCropCells / 2, iy - kCropCells / 2}, quarters);
+      crop.occupancy[crop.index_of(ix, iy)] = map.is_occupied(c) ? 1.0F : 0.0F;
+      crop.confidence[crop.index_of(ix, iy)] = 1.0F;
+    }
+  }
+  return crop;
+}
+
+/// What a method has for a map, and where the truth lies on it.
+struct GivenMap {
+  CoarseMap map;
+  std::function<Pose2(const Pose2&)> from_world;
+};
+
+GivenMap given_map(const Scene& scene, const Drawing& drawing, const Method& method,
+                   double step_m) {
+  if (method.plans_on_world) {
+    return {scene.drivable, [](const Pose2& pose) { return pose; }};
+  }
+  const auto on_drawing = [drawing](const Pose2& pose) { return drawing.world_to_map(pose); };
+  const CoarseMap map = largest_region(drawing.map()).map;
+  if (!method.has_metric_map) {
+    return {map, on_drawing};
+  }
+  const double scale = drawing.scale();
+  return {metric(map, scale, step_m), [on_drawing, scale](const Pose2& pose) {
+            const Pose2 nominal = on_drawing(pose);
+            return Pose2{nominal.x / scale, nominal.y / scale, nominal.yaw};
+          }};
+}
+
+std::unique_ptr<Localizer> localizer_for(const Method& method, const Task& task,
+                                         const CoarseMap& map, const LocalizationParams& params,
+                                         const Pose2& T_map_start) {
+  if (method.knows_pose) {
+    return std::make_unique<GivenPose>(map);
+  }
+  std::unique_ptr<Localizer> localizer = make_localizer(map, params);
+  if (method.knows_heading || task.knows_heading) {
+    localizer->reset_heading(nearest_heading(T_map_start.yaw - map.T_map_grid().yaw));
+  }
+  return localizer;
+}
+
+Action any_action(std::mt19937_64& rng, double step_m) {
+  constexpr std::array<ActionType, 3> kActions{ActionType::kMoveForward, ActionType::kTurnLeft,
+                                               ActionType::kTurnRight};
+  return {kActions[draw_index(rng, kActions.size())], step_m};
+}
+
+bool is_an_end(NavigationState state) {
+  return state == NavigationState::kReached || state == NavigationState::kFailed;
+}
+
+/// Fills in what the judge sees at the start and after each action.
+class Judge {
+ public:
+  Judge(const JudgeParams& params, const Route& route, const EpisodeKey& key) : params_{params} {
+    row_.key = key;
+    row_.T_world_start = route.T_world_start;
+    row_.goal_world = route.goal_world;
+    row_.shortest_m = route.shortest_m;
+    row_.closest_m = norm(route.T_world_start.position() - route.goal_world);
+  }
+
+  void look_at(const StepDrive& robot) {
+    const double off_m = off_goal_m(robot);
+    row_.closest_m = std::min(row_.closest_m, off_m);
+    row_.driven_m = robot.driven_m();
+    row_.collisions = robot.collisions();
+    if (!row_.is_success && off_m < params_.success_radius_m) {
+      row_.is_success = true;
+      row_.success_driven_m = robot.driven_m();
+      row_.success_actions = row_.actions;
+    }
+  }
+  void look_at(const Localization& at, const CoarseMap& map, const Pose2& T_map_true) {
+    if (!at.is_converged || row_.converged_actions >= 0) {
+      return;
+    }
+    row_.converged_actions = row_.actions;
+    row_.converged_driven_m = row_.driven_m;
+    const double off_m = norm(map.center_of(at.estimate.cell) - T_map_true.position());
+    const Heading heading = nearest_heading(T_map_true.yaw - map.T_map_grid().yaw);
+    row_.is_falsely_converged = off_m > kRightWithin_m || at.estimate.heading != heading;
+  }
+  /// The robot says that it has arrived; the first word counts.
+  void hear_reached(const StepDrive& robot) {
+    if (!row_.is_declared) {
+      row_.is_declared = true;
+      row_.is_declared_right = off_goal_m(robot) <= params_.declared_radius_m;
+    }
+  }
+  void count_action() { ++row_.actions; }
+  EpisodeRow& row() { return row_; }
+
+ private:
+  static constexpr double kRightWithin_m = 1.0;
+
+  double off_goal_m(const StepDrive& robot) const {
+    return norm(robot.truth().position() - row_.goal_world);
+  }
+
+  JudgeParams params_;
+  EpisodeRow row_;
+};
+
+}  // namespace
+
+Scene::Scene(std::string scene_name, CoarseMap world_map, std::optional<CoarseMap> wall_map,
+             const JudgeParams& judge)
+    : name{std::move(scene_name)},
+      map{std::move(world_map)},
+      walls{std::move(wall_map)},
+      world{map},
+      routes{world, map, judge.simulation.robot.radius_m},
+      drivable{drivable_map(world, map, judge.simulation.robot.radius_m)} {}
+
+std::optional<Route> sample_route(const Scene& scene, const Drawing& drawing,
+                                  const JudgeParams& judge, std::uint64_t seed) {
+  std::mt19937_64 rng{seed};
+  const CoarseMap map = largest_region(drawing.map()).map;
+  const auto is_free_on_drawing = [&](Point2 goal_world) {
+    return map.is_free(map.cell_of(drawing.world_to_map(goal_world)));
+  };
+  return scene.routes.sample(judge.least_way_m, judge.most_way_m, is_free_on_drawing, rng);
+}
+
+EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawing& drawing,
+                              const Route& route, const Method& method, NavigatorParams params,
+                              const JudgeParams& judge, const EpisodeKey& key,
+                              const std::function<double()>& clock_s,
+                              const EpisodeRecorder& recorder) {
+  std::mt19937_64 rng{key.seed};
+  const auto seed = [&rng] { return static_cast<std::uint32_t>(rng()); };
+  params.localization.seed = seed();
+  params.planning.seed = seed();
+  SimulationParams simulation = judge.simulation;
+  simulation.robot.sliding = simulation.robot.sliding || task.has_paper_setting;
+  if (task.observation == ObservationKind::kForwardLidar) {
+    simulation.lidar.field_of_view_deg = 180.0;
+    simulation.lidar.beams = simulation.lidar.beams / 2 + 1;
+  }
+  StepDrive robot{scene.world, simulation.robot, route.T_world_start, rng()};
+  RangeSensor lidar{simulation.lidar, seed()};
+
+  const GivenMap given = given_map(scene, drawing, method, params.planning.step_m);
+  const Pose2 goal = given.from_world({route.goal_world.x, route.goal_world.y, 0.0});
+  std::unique_ptr<Localizer> owned = localizer_for(method, task, given.map, params.localization,
+                                                   given.from_world(route.T_world_start));
+  auto* told = dynamic_cast<GivenPose*>(owned.get());
+  Navigator navigator{given.map, params, std::move(owned)};
+
+  Judge the_judge{judge, route, key};
+  EpisodeRow& row = the_judge.row();
+  if (const auto reason = navigator.planner().set_goal(goal.position())) {
+    row.end = "goal refused";
+    return row;
+  }
+  MotionOutcome last_outcome = MotionOutcome::kSucceeded;
+  double thinking_s = 0.0;
+  int steps = 0;
+  the_judge.look_at(robot);
+  while (true) {
+    const Pose2 T_map_true = given.from_world(robot.truth());
+    const RangeScan scan = lidar.measure(scene.world, robot.truth(), 0.0);
+    if (told != nullptr) {
+      told->place(T_map_true);
+    }
+    const double before_s = clock_s();
+    Decision decision =
+        task.observation == ObservationKind::kTrueCrop
+            ? navigator.step(scan, true_crop(drawing.map(), drawing.world_to_map(robot.truth())),
+                             robot.T_odom_robot(), last_outcome)
+            : navigator.step(scan, robot.T_odom_robot(), last_outcome);
+    thinking_s += clock_s() - before_s;
+    ++steps;
+    const Localization at = navigator.localizer().localization();
+    the_judge.look_at(at, given.map, T_map_true);
+    if (recorder) {
+      recorder({robot.truth(), at, T_map_true, decision, navigator.local_map()});
+    }
+    if (decision.state == NavigationState::kReached) {
+      the_judge.hear_reached(robot);
+    }
+    row.end = decision.state == NavigationState::kReached ? "reached" : "failed";
+    if (is_an_end(decision.state)) {
+      if (!method.ends_by_judge) {
+        break;
+      }
+      navigator.planner().set_goal(goal.position());
+      decision.action = any_action(rng, params.planning.step_m);
+    }
+    row.end = "horizon";
+    if (row.actions >= params.planning.max_actions || (method.ends_by_judge && row.is_success)) {
+      break;
+    }
+    last_outcome = robot.carry_out(decision.action);
+    the_judge.count_action();
+    the_judge.look_at(robot);
+  }
+  row.step_ms = 1000.0 * thinking_s / steps;
+  return row;
+}
+
+}  // namespace cmn
