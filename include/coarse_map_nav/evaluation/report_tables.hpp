@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The tables of an evaluation's report, in Markdown, each with an empty line after it.
+#pragma once
+
+#include "coarse_map_nav/evaluation/episode_group.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cmn {
+
+/// One line of a table; bars and line ends in the cells are made harmless.
+std::string table_row(const std::vector<std::string>& cells);
+/// The head of a table whose first column is left-aligned, the others right-aligned.
+std::string table_head(const std::vector<std::string>& cells);
+
+/// A method a row: N, SR and SPL with 95 % intervals, what the robot itself declared. Preceded by a
+/// warning when methods have not all run the same episodes.
+std::string success_table(const EpisodeTable& table);
+/// A method a row: convergence, actions, collisions, time.
+std::string cost_table(const EpisodeTable& table);
+/// A method a row, a building a column: SR / SPL.
+std::string building_table(const EpisodeTable& table);
+/// The first method against each other one, on the episodes that both have run; empty for one.
+std::string paired_table(const EpisodeTable& table);
+/// SR / SPL of the CMN paper beside those of all tables of one task; empty when it has none.
+std::string paper_table(const std::vector<EpisodeTable>& tables);
+
+}  // namespace cmn
