@@ -4,30 +4,23 @@
 /// cmn_evaluate: every method on every building, judged; the tables by which this package is
 /// judged.
 
-#include "coarse_map_nav/evaluation/judged_episode.hpp"
-#include "coarse_map_nav/mapping/map_reader.hpp"
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
+#include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "cmn_evaluate/evaluation.hpp"
+#include "cmn_evaluate/merge.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
@@ -35,41 +28,20 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
-/// What is asked for.
-struct Plan {
-  std::vector<std::string> worlds;
-  std::vector<std::string> tasks;
-  std::vector<double> mpps;
-  std::vector<std::string> methods;
-  int episodes = 0;
-  std::uint64_t seed = 1;
-  int jobs = 1;
-  int shard = 0;
-  int shards = 1;
-  fs::path out;
-  fs::path config;
-  bool resume = false;
-  cmn::JudgeParams judge;
-};
+volatile std::sig_atomic_t interrupts = 0;
+volatile std::time_t interrupted_s = 0;
 
-/// One start and goal, for all methods.
-struct Job {
-  std::size_t world;
-  std::size_t task;
-  std::size_t mpp;
-  int index;
-};
-
-std::uint64_t mixed(std::uint64_t value) {  // SplitMix64 (Steele et al. 2014)
-  value += 0x9e3779b97f4a7c15U;
-  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-  return value ^ (value >> 31U);
-}
-
-/// The same for all methods, tasks and drawings: what differs between rows is the method.
-std::uint64_t episode_seed(std::uint64_t seed, std::size_t world, int index) {
-  return mixed(mixed(mixed(seed) + world) + static_cast<std::uint64_t>(index));
+/// The first Ctrl-C lets the episodes that are under way come to their end, one more a second later
+/// kills. (What starts us may send the same signal twice.)
+void interrupt(int signal) {
+  const std::time_t now_s = std::time(nullptr);
+  if (interrupts == 0) {
+    interrupts = 1;
+    interrupted_s = now_s;
+  } else if (now_s > interrupted_s + 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 std::vector<std::string> split(const std::vector<std::string>& texts) {
@@ -96,194 +68,20 @@ fs::path find_config() {
   throw std::runtime_error("the folder of presets was not found: give --config");
 }
 
-std::unique_ptr<cmn::Scene> read_scene(const std::string& path, const cmn::JudgeParams& judge) {
+/// Throws std::runtime_error when it is none, or finer than the names of episodes show.
+double resolution_of(const std::string& text) {
+  std::size_t used = 0;
+  double mpp = 0.0;
   try {
-    return std::make_unique<cmn::Scene>(fs::path{path}.stem().string(), cmn::read_map(path),
-                                        std::nullopt, judge);
-  } catch (const std::exception& e) {
-    const std::string why = e.what();
-    throw std::runtime_error(why.find(path) == std::string::npos ? path + ": " + why : why);
+    mpp = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
   }
-}
-
-/// Writes rows as they come, so that an interrupted run keeps what is done.
-class EpisodeLog {
- public:
-  EpisodeLog(const fs::path& out, bool resume) : path_{out / "episodes.csv"} {
-    std::error_code error;
-    fs::create_directories(out, error);
-    if (fs::exists(path_) && !resume) {
-      throw std::runtime_error(path_.string() + " exists: --resume goes on with it, or give " +
-                               "another --out");
-    }
-    if (resume && fs::exists(path_)) {
-      std::ifstream in{path_};
-      rows_ = cmn::read_episodes(in, path_.string());
-    }
-    rewrite();
+  if (used == 0 || used != text.size() || !(mpp > 0.0) ||
+      std::abs(100.0 * mpp - std::round(100.0 * mpp)) > 1e-9) {
+    throw std::runtime_error("--mpp " + text + " is not a resolution in whole centimetres, as 0.4");
   }
-
-  const std::vector<cmn::EpisodeRow>& rows() const { return rows_; }
-  std::set<std::string> done() const {
-    std::set<std::string> ids;
-    for (const cmn::EpisodeRow& row : rows_) {
-      ids.insert(row.key.id());
-    }
-    return ids;
-  }
-  void add(const cmn::EpisodeRow& row) {
-    rows_.push_back(row);
-    stream_ << cmn::csv_line(row) << "\n" << std::flush;
-  }
-  /// In the order of the keys: the same file for any number of jobs.
-  void finish() {
-    std::sort(rows_.begin(), rows_.end(),
-              [](const auto& a, const auto& b) { return a.key < b.key; });
-    rewrite();
-  }
-
- private:
-  void rewrite() {
-    stream_ = std::ofstream{path_, std::ios::trunc};
-    stream_ << cmn::csv_header() << "\n";
-    for (const cmn::EpisodeRow& row : rows_) {
-      stream_ << cmn::csv_line(row) << "\n";
-    }
-    stream_.flush();
-    if (!stream_) {
-      throw std::runtime_error("cannot write " + path_.string());
-    }
-  }
-
-  fs::path path_;
-  std::ofstream stream_;
-  std::vector<cmn::EpisodeRow> rows_;
-};
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Plays all jobs of the plan on `plan.jobs` threads.
-class Evaluation {
- public:
-  Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{log}, done_{log.done()} {
-    for (const std::string& world : plan.worlds) {
-      scenes_.push_back(read_scene(world, plan.judge));
-    }
-    for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
-      for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
-        for (std::size_t mpp = 0; mpp < plan.mpps.size(); ++mpp) {
-          for (int index = plan.shard; index < plan.episodes; index += plan.shards) {
-            jobs_.push_back({world, task, mpp, index});
-          }
-        }
-      }
-    }
-    for (const std::string& name : plan.tasks) {
-      for (const std::string& method : plan.methods) {
-        params_[name][method] = cmn::method_params(cmn::find_method(method), cmn::find_task(name),
-                                                   plan.config.string());
-      }
-    }
-  }
-
-  void run() {
-    std::vector<std::thread> workers;
-    for (int i = 0; i < plan_.jobs; ++i) {
-      workers.emplace_back([this] { work(); });
-    }
-    for (std::thread& worker : workers) {
-      worker.join();
-    }
-    if (fault_) {
-      std::rethrow_exception(fault_);
-    }
-  }
-
- private:
-  void work() {
-    try {
-      for (std::size_t i; !has_fault_ && (i = next_++) < jobs_.size();) {
-        play(jobs_[i]);
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock{mutex_};
-      fault_ = std::current_exception();
-      has_fault_ = true;
-    }
-  }
-
-  void play(const Job& job) {
-    const cmn::Scene& scene = *scenes_[job.world];
-    const cmn::Task& task = cmn::find_task(plan_.tasks[job.task]);
-    cmn::EpisodeKey key;
-    key.task = task.name;
-    key.world = scene.name;
-    key.mpp = plan_.mpps[job.mpp];
-    key.index = job.index;
-    key.seed = episode_seed(plan_.seed, job.world, job.index);
-    std::optional<cmn::Drawing> drawing;
-    std::optional<cmn::Route> route;
-    for (const std::string& name : plan_.methods) {
-      key.method = name;
-      if (done_.count(key.id()) != 0) {
-        continue;
-      }
-      if (!drawing) {
-        drawing = cmn::draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
-                            static_cast<std::uint32_t>(key.seed));
-        route = cmn::sample_route(scene, *drawing, plan_.judge, key.seed);
-      }
-      if (!route) {
-        throw std::runtime_error(key.world + ": no start and goal lie " +
-                                 std::to_string(plan_.judge.least_way_m) + " m to " +
-                                 std::to_string(plan_.judge.most_way_m) + " m apart");
-      }
-      const cmn::EpisodeRow row =
-          cmn::run_judged_episode(scene, task, *drawing, *route, cmn::find_method(name),
-                                  params_.at(task.name).at(name), plan_.judge, key, seconds);
-      const std::lock_guard<std::mutex> lock{mutex_};
-      log_.add(row);
-    }
-  }
-
-  const Plan& plan_;
-  EpisodeLog& log_;
-  std::set<std::string> done_;
-  std::vector<std::unique_ptr<cmn::Scene>> scenes_;
-  std::vector<Job> jobs_;
-  std::map<std::string, std::map<std::string, cmn::NavigatorParams>> params_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;
-  std::exception_ptr fault_;
-  std::atomic<bool> has_fault_{false};
-};
-
-void print_results(const Plan& plan, const std::vector<cmn::EpisodeRow>& rows) {
-  for (const std::string& task : plan.tasks) {
-    for (const double mpp : plan.mpps) {
-      for (const std::string& method : plan.methods) {
-        int episodes = 0;
-        int successes = 0;
-        double spl = 0.0;
-        double step_ms = 0.0;
-        for (const cmn::EpisodeRow& row : rows) {
-          if (row.key.task == task && row.key.mpp == mpp && row.key.method == method) {
-            ++episodes;
-            successes += row.is_success;
-            spl += row.spl();
-            step_ms += row.step_ms;
-          }
-        }
-        const int n = std::max(1, episodes);
-        std::fprintf(stderr, "%s %.3f ms a step\n", method.c_str(), step_ms / n);
-        std::printf("RESULT task=%s mpp=%.2f method=%s SR=%.3f SPL=%.3f episodes=%d\n",
-                    task.c_str(), mpp, method.c_str(), static_cast<double>(successes) / n, spl / n,
-                    episodes);
-      }
-    }
-  }
+  return mpp;
 }
 
 int run(int argc, char** argv) {
@@ -321,14 +119,17 @@ int run(int argc, char** argv) {
     return EXIT_SUCCESS;
   }
   po::notify(given);
-  Plan plan;
+  cmn::Plan plan;
   if (given.count("world") != 0) {
     plan.worlds = given["world"].as<std::vector<std::string>>();
+  }
+  if (plan.worlds.empty()) {
+    throw std::runtime_error("give at least one --world");
   }
   plan.tasks = split(given["task"].as<std::vector<std::string>>());
   plan.methods = split(given["method"].as<std::vector<std::string>>());
   for (const std::string& mpp : split(given["mpp"].as<std::vector<std::string>>())) {
-    plan.mpps.push_back(std::stod(mpp));
+    plan.mpps.push_back(resolution_of(mpp));
   }
   plan.episodes = given["episodes"].as<int>();
   plan.seed = given["seed"].as<std::uint64_t>();
@@ -343,11 +144,28 @@ int run(int argc, char** argv) {
       given.count("config") != 0 ? fs::path{given["config"].as<std::string>()} : find_config();
   plan.resume = given["resume"].as<bool>();
 
-  EpisodeLog log{plan.out, plan.resume};
-  Evaluation evaluation{plan, log};
-  evaluation.run();
+  cmn::ReportContext context;
+  context.command = cmn::command_line(argc, argv);
+  context.machine = cmn::machine_text();
+  context.version = CMN_VERSION;
+  context.seed = plan.seed;
+  context.robot_radius_m = plan.judge.simulation.robot.radius_m;
+  context.success_radius_m = plan.judge.success_radius_m;
+  const double start_s = cmn::seconds();
+  cmn::EpisodeLog log{plan.out.string(), plan.resume};
+  cmn::Evaluation evaluation{plan, log};
+  context.horizon = evaluation.horizon();
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  evaluation.run([] { return interrupts != 0; });
   log.finish();
-  print_results(plan, log.rows());
+  context.wall_time_s = cmn::seconds() - start_s;
+  context.is_interrupted = interrupts != 0;
+  cmn::leave_report(log.rows(), context, plan.out);
+  if (context.is_interrupted) {
+    std::cerr << "cmn_evaluate: interrupted; the same command with --resume goes on\n";
+    return 130;  // as the shell does
+  }
   return EXIT_SUCCESS;
 }
 
@@ -355,7 +173,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return argc > 1 && std::string{argv[1]} == "merge" ? cmn::merge(argc, argv) : run(argc, argv);
   } catch (const std::exception& e) {
     std::cerr << "cmn_evaluate: " << e.what() << "\n";
     return EXIT_FAILURE;

@@ -1,0 +1,207 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation.hpp"
+
+#include "coarse_map_nav/evaluation/progress.hpp"
+#include "coarse_map_nav/mapping/map_reader.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include <unistd.h>
+
+namespace cmn {
+
+/// The line on the terminal. Silent when nobody looks.
+class ProgressLine {
+ public:
+  ProgressLine(std::size_t done_before, std::size_t total) {
+    progress_.total = total;
+    progress_.done = progress_.done_before = done_before;
+  }
+  ~ProgressLine() {
+    if (is_shown_) {
+      std::cerr << "\n";
+    }
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void count(bool is_success) {
+    ++progress_.done;
+    successes_ += is_success;
+    progress_.elapsed_s = seconds() - start_s_;
+    progress_.success_share = static_cast<double>(successes_) /
+                              static_cast<double>(progress_.done - progress_.done_before);
+    const bool is_due = progress_.elapsed_s - shown_s_ > 0.2 || progress_.done == progress_.total;
+    if (isatty(STDERR_FILENO) == 1 && is_due) {
+      const std::string line = progress_line(progress_);
+      std::cerr << "\r" << line << std::string(79 - std::min<std::size_t>(79, line.size()), ' ');
+      shown_s_ = progress_.elapsed_s;
+      is_shown_ = true;
+    }
+  }
+
+ private:
+  Progress progress_;
+  double start_s_ = seconds();
+  double shown_s_ = 0.0;
+  std::size_t successes_ = 0;
+  bool is_shown_ = false;
+};
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t value) {  // SplitMix64 (Steele et al. 2014)
+  value += 0x9e3779b97f4a7c15U;
+  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
+  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
+  return value ^ (value >> 31U);
+}
+
+/// The same for all methods, tasks and drawings: what differs between rows is the method.
+/// Worlds go by their names, so that a run may be split by worlds, too.
+std::uint64_t episode_seed(std::uint64_t seed, const std::string& world, int index) {
+  std::uint64_t value = mixed(seed);
+  for (const char letter : world) {
+    value = mixed(value + static_cast<unsigned char>(letter));
+  }
+  return mixed(value + static_cast<std::uint64_t>(index));
+}
+
+std::unique_ptr<Scene> read_scene(const std::string& path, const JudgeParams& judge) {
+  try {
+    return std::make_unique<Scene>(std::filesystem::path{path}.stem().string(), read_map(path),
+                                   std::nullopt, judge);
+  } catch (const std::exception& e) {
+    const std::string why = e.what();
+    throw std::runtime_error(why.find(path) == std::string::npos ? path + ": " + why : why);
+  }
+}
+
+}  // namespace
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{log} {
+  for (const std::string& name : plan.tasks) {
+    for (const std::string& method : plan.methods) {
+      params_[name][method] =
+          method_params(find_method(method), find_task(name), plan.config.string());
+    }
+  }
+  std::set<std::string> names;
+  for (const std::string& world : plan.worlds) {
+    scenes_.push_back(read_scene(world, plan.judge));
+    if (!names.insert(scenes_.back()->name).second) {
+      throw std::runtime_error(world + ": another world is called " + scenes_.back()->name);
+    }
+  }
+  for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
+    for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
+      for (std::size_t mpp = 0; mpp < plan.mpps.size(); ++mpp) {
+        for (int index = plan.shard; index < plan.episodes; index += plan.shards) {
+          add({world, task, mpp, index});
+        }
+      }
+    }
+  }
+}
+
+int Evaluation::horizon() const {
+  int most = 0;
+  for (const auto& [task, methods] : params_) {
+    for (const auto& [method, params] : methods) {
+      most = std::max(most, params.planning.max_actions);
+    }
+  }
+  return most;
+}
+
+void Evaluation::run(const std::function<bool()>& is_stopped) {
+  ProgressLine progress{done_.size(), jobs_.size() * plan_.methods.size()};
+  std::vector<std::thread> workers;
+  for (int i = 0; i < plan_.jobs; ++i) {
+    workers.emplace_back([&] { work(is_stopped, progress); });
+  }
+  for (std::thread& worker : workers) {
+    worker.join();
+  }
+  if (fault_) {
+    std::rethrow_exception(fault_);
+  }
+}
+
+EpisodeKey Evaluation::key_of(const Job& job, const std::string& method) const {
+  EpisodeKey key;
+  key.task = plan_.tasks[job.task];
+  key.world = scenes_[job.world]->name;
+  key.mpp = plan_.mpps[job.mpp];
+  key.method = method;
+  key.index = job.index;
+  key.seed = episode_seed(plan_.seed, key.world, key.index);
+  return key;
+}
+
+void Evaluation::add(const Job& job) {
+  jobs_.push_back(job);
+  for (const std::string& method : plan_.methods) {
+    const EpisodeKey key = key_of(job, method);
+    if (const EpisodeRow* row = log_.find(key.id())) {
+      if (row->key.seed != key.seed) {
+        throw std::runtime_error(key.id() + " was run with another --seed: --resume needs the " +
+                                 "options of the run that it goes on with");
+      }
+      done_.insert(key.id());
+    }
+  }
+}
+
+void Evaluation::work(const std::function<bool()>& is_stopped, ProgressLine& progress) {
+  try {
+    for (std::size_t i; !has_fault_ && !is_stopped() && (i = next_++) < jobs_.size();) {
+      play(jobs_[i], progress);
+    }
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock{mutex_};
+    fault_ = std::current_exception();
+    has_fault_ = true;
+  }
+}
+
+void Evaluation::play(const Job& job, ProgressLine& progress) {
+  const Scene& scene = *scenes_[job.world];
+  const Task& task = find_task(plan_.tasks[job.task]);
+  std::optional<Drawing> drawing;
+  std::optional<Route> route;
+  for (const std::string& name : plan_.methods) {
+    const EpisodeKey key = key_of(job, name);
+    if (done_.count(key.id()) != 0) {
+      continue;
+    }
+    if (!drawing) {
+      drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
+                     static_cast<std::uint32_t>(key.seed));
+      route = sample_route(scene, *drawing, plan_.judge, key.seed);
+    }
+    if (!route) {
+      throw std::runtime_error(key.world + ": no start and goal lie " +
+                               std::to_string(plan_.judge.least_way_m) + " m to " +
+                               std::to_string(plan_.judge.most_way_m) + " m apart");
+    }
+    const EpisodeRow row =
+        run_judged_episode(scene, task, *drawing, *route, find_method(name),
+                           params_.at(task.name).at(name), plan_.judge, key, seconds);
+    const std::lock_guard<std::mutex> lock{mutex_};
+    log_.add(row);
+    progress.count(row.is_success);
+  }
+}
+
+}  // namespace cmn

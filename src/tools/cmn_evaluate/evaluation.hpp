@@ -1,0 +1,85 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// An evaluation as it is asked for, and its run on several threads.
+#pragma once
+
+#include "coarse_map_nav/evaluation/episode_log.hpp"
+#include "coarse_map_nav/evaluation/judged_episode.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace cmn {
+
+/// What is asked for.
+struct Plan {
+  std::vector<std::string> worlds;
+  std::vector<std::string> tasks;
+  std::vector<double> mpps;
+  std::vector<std::string> methods;
+  int episodes = 0;
+  std::uint64_t seed = 1;
+  int jobs = 1;
+  int shard = 0;
+  int shards = 1;
+  std::filesystem::path out;
+  std::filesystem::path config;
+  bool resume = false;
+  JudgeParams judge;
+};
+
+/// Wall time since some moment [s].
+double seconds();
+
+class ProgressLine;
+
+/// Plays all episodes of a plan on `plan.jobs` threads: the same rows for any number of them.
+class Evaluation {
+ public:
+  /// Reads the worlds and presets. Rows that are in the log already are not run again. Throws
+  /// std::runtime_error or std::invalid_argument naming what cannot be done.
+  Evaluation(const Plan& plan, EpisodeLog& log);
+
+  /// Until all is done or `is_stopped`, which lets the episodes that are under way end.
+  void run(const std::function<bool()>& is_stopped);
+
+  /// The number of actions after which every method's episode has ended.
+  int horizon() const;
+
+ private:
+  /// One start and goal, for all methods.
+  struct Job {
+    std::size_t world;
+    std::size_t task;
+    std::size_t mpp;
+    int index;
+  };
+
+  EpisodeKey key_of(const Job& job, const std::string& method) const;
+  void add(const Job& job);
+  void work(const std::function<bool()>& is_stopped, ProgressLine& progress);
+  void play(const Job& job, ProgressLine& progress);
+
+  const Plan& plan_;
+  EpisodeLog& log_;
+  std::set<std::string> done_;  ///< ids
+  std::vector<std::unique_ptr<Scene>> scenes_;
+  std::vector<Job> jobs_;
+  std::map<std::string, std::map<std::string, NavigatorParams>> params_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr fault_;
+  std::atomic<bool> has_fault_{false};
+};
+
+}  // namespace cmn
