@@ -22,8 +22,10 @@ const std::vector<Method>& methods() {
     rnd.ends_by_judge = true;
     Method true_pose{"true_pose", "navigator.yaml"};
     true_pose.knows_pose = true;
+    true_pose.has_shared_planner = false;
     Method oracle{"oracle", "navigator.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
+    oracle.has_shared_planner = false;
     return std::vector<Method>{ours, cmn, robb, rmn, rnd, true_pose, oracle};
   }();
   return kMethods;
@@ -60,6 +62,10 @@ NavigatorParams method_params(const Method& method, const Task& task,
   }
   if (!faults.empty()) {
     throw std::runtime_error(file + ":" + faults);
+  }
+  if (method.knows_pose) {
+    params.planning.policy = "belief";
+    params.planning.goal_tolerance_m = 0.2;
   }
   const bool is_in_paper_setting = task.has_paper_setting && method.name != "oracle";
   if (method.has_shared_planner && !is_in_paper_setting) {

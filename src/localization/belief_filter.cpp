@@ -245,8 +245,11 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
 
 Pose2 BeliefFilter::T_map_robot() const {
   const Point2 p = map_.center_of(estimate_.cell);
-  const double residual_rad = T_odom_last_ ? residual_yaw(*T_odom_last_) : 0.0;
-  return {p.x, p.y, wrap_angle(yaw(estimate_.heading) + map_.T_map_grid().yaw + residual_rad)};
+  return {p.x, p.y, wrap_angle(map_.T_map_grid().yaw + yaw_rad())};
+}
+
+double BeliefFilter::yaw_rad() const {
+  return yaw(estimate_.heading) + (T_odom_last_ ? residual_yaw(*T_odom_last_) : 0.0);
 }
 
 double BeliefFilter::news_in(const Displacement& driven) const {

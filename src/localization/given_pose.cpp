@@ -12,8 +12,8 @@ void GivenPose::place(const Pose2& T_map_robot) {
   belief_.set_weight(estimate_.heading, estimate_.cell, 0.0);
   const Point2 p = inverse(map_.T_map_grid()) * T_map_robot.position();
   position_cells_ = (1.0 / map_.resolution()) * p;
-  estimate_ = {nearest_heading(T_map_robot.yaw - map_.T_map_grid().yaw),
-               nearest_free(map_.cell_of(T_map_robot.position())), 1.0};
+  yaw_rad_ = wrap_angle(T_map_robot.yaw - map_.T_map_grid().yaw);
+  estimate_ = {nearest_heading(yaw_rad_), nearest_free(map_.cell_of(T_map_robot.position())), 1.0};
   belief_.set_weight(estimate_.heading, estimate_.cell, 1.0);
   belief_.set_factor(1.0);
 }

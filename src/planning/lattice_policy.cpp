@@ -11,6 +11,12 @@
 #include <stdexcept>
 
 namespace cmn {
+namespace {
+
+/// The way there is dearer than the cost-to-go counts (turns, nearness): progress must still pay.
+constexpr double kGreed = 2.0;
+
+}  // namespace
 
 ActionType LatticePolicy::choose(const Situation& situation, std::mt19937_64& rng) {
   if (situation.local_map == nullptr) {
@@ -33,11 +39,11 @@ ActionType LatticePolicy::choose(const Situation& situation, std::mt19937_64& rn
   double least_m = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Point2 ahead = turned(lattice_.position_of(states[i]), yaw(at.heading));
+    const Point2 ahead = turned(lattice_.position_of(states[i]), situation.yaw_rad);
     const double to_go_m = cell_m * situation.cost_to_go.between_cells(situation.position_cells +
                                                                        (1.0 / cell_m) * ahead);
-    if (states[i].cost_m + to_go_m < least_m) {
-      least_m = states[i].cost_m + to_go_m;
+    if (states[i].cost_m + kGreed * to_go_m < least_m) {
+      least_m = states[i].cost_m + kGreed * to_go_m;
       best = i;
     }
   }

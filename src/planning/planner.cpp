@@ -86,6 +86,7 @@ std::optional<std::string> Planner::set_goal(Point2 goal_map) {
            nearest_goal(map_, goal_map);
   }
   goal_ = cell;
+  goal_cells_ = params_.policy == "belief" ? (1.0 / r) * p_grid : middle_of(cell);
   cost_to_go_ = CostToGo{map_, cell};
   actions_ = 0;
   is_stuck_ = false;
@@ -104,14 +105,20 @@ void Planner::cancel_goal() {
 
 std::vector<Cell> Planner::path_from(Cell from) const { return cost_to_go_.path(from); }
 
-bool Planner::is_at_goal(const Localization& localization) const {
-  if (!localization.is_converged || localization.confidence < params_.reached_confidence) {
+bool Planner::is_at_goal(const Situation& situation) const {
+  if (!situation.is_converged || situation.confidence < params_.reached_confidence) {
     return false;
   }
-  const Cell here = localization.estimate.cell;
-  const double straight_m = norm(map_.center_of(here) - map_.center_of(*goal_));
-  // Without walls a path along the axes is at most sqrt(2) times the straight line.
-  const double path_m = cost_to_go_(here) * map_.resolution();
+  const double cell_m = map_.resolution();
+  const double straight_m = cell_m * norm(situation.position_cells - situation.goal_cells);
+  const std::optional<double> own_m = policy_->distance_to_go_m(situation);
+  // Without walls a path along the axes is at most sqrt(2) times the straight line, and a cell of
+  // the map more.
+  if (own_m) {
+    return straight_m <= params_.goal_tolerance_m && *own_m <= 2.0 * params_.goal_tolerance_m;
+  }
+  const Cell here = situation.estimate.cell;
+  const double path_m = cost_to_go_(here) * cell_m;
   return here == *goal_ || (straight_m <= params_.goal_tolerance_m &&
                             path_m <= std::sqrt(2.0) * params_.goal_tolerance_m);
 }
@@ -144,10 +151,24 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
     return *end_;
   }
   const Cell here = localization.estimate.cell;
-  const double distance_m = cost_to_go_.is_reachable(here)
-                                ? cost_to_go_(here) * map_.resolution()
-                                : std::numeric_limits<double>::quiet_NaN();
-  if (is_at_goal(localization)) {
+  const Situation situation{map_,
+                            localization.belief,
+                            cost_to_go_,
+                            localization.estimate,
+                            localization.position_cells,
+                            localization.yaw_rad,
+                            goal_cells_,
+                            localization.confidence,
+                            localization.is_converged,
+                            is_blocked_ahead || is_stuck_,
+                            is_stuck_,
+                            local_map};
+  policy_->look(situation);
+  const std::optional<double> own_m = policy_->distance_to_go_m(situation);
+  const double distance_m = own_m                            ? *own_m
+                            : cost_to_go_.is_reachable(here) ? cost_to_go_(here) * map_.resolution()
+                                                             : std::nan("");
+  if (is_at_goal(situation)) {
     return end(NavigationState::kReached, distance_m,
                "Reached the goal at cell " + text_of(*goal_) + " with " + std::to_string(actions_) +
                    " actions, confidence " + percent(localization.confidence) + ".");
@@ -166,33 +187,29 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
                         ? std::string{"."}
                         : ", by the estimate " + text_of(distance_m, 1) + " m before the goal."));
   }
-  return act(localization, is_blocked_ahead || is_stuck_, local_map, distance_m);
+  return act(situation, distance_m);
 }
 
-Decision Planner::act(const Localization& localization, bool is_blocked_ahead,
-                      const LocalOccupancy* local_map, double distance_m) {
+Decision Planner::act(const Situation& situation, double distance_m) {
   Decision decision;
   decision.distance_to_go_m = distance_m;
-  decision.action.type = policy_->choose(
-      {map_, localization.belief, cost_to_go_, localization.estimate, localization.position_cells,
-       localization.confidence, localization.is_converged, is_blocked_ahead, is_stuck_, local_map},
-      rng_);
+  decision.action.type = policy_->choose(situation, rng_);
   if (decision.action.type == ActionType::kMoveForward) {
     decision.action.distance_m = params_.step_m;
   }
   last_action_ = decision.action.type;
   ++actions_;
 
-  const std::string doing =
-      word_of(decision.action.type) + (is_blocked_ahead ? ", the way ahead is blocked." : ".");
-  if (!localization.is_converged) {
+  const std::string doing = word_of(decision.action.type) +
+                            (situation.is_blocked_ahead ? ", the way ahead is blocked." : ".");
+  if (!situation.is_converged) {
     decision.state = NavigationState::kLocalizing;
     decision.text = "Looking for its place on the drawing (confidence " +
-                    percent(localization.confidence) + "), " + doing;
+                    percent(situation.confidence) + "), " + doing;
   } else if (std::isnan(distance_m)) {
     decision.state = NavigationState::kLocalizing;
     decision.text = "Exploring, since no way leads to the goal from the estimate at cell " +
-                    text_of(localization.estimate.cell) + ", " + doing;
+                    text_of(situation.estimate.cell) + ", " + doing;
   } else {
     decision.state = NavigationState::kNavigating;
     decision.text = text_of(distance_m, 1) + " m to go, " + doing;

@@ -14,6 +14,7 @@ struct Localization {
   Estimate estimate;
   /// Finer than the estimate's cell: x, y in cells of the grid, cell (0, 0) from 0 to 1.
   Point2 position_cells;
+  double yaw_rad = 0.0;     ///< likewise finer than its heading, in the axes of the grid
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
 };

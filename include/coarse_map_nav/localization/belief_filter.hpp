@@ -77,7 +77,7 @@ class BeliefFilter : public Localizer {
   /// only corrects.
   Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
   Localization localization() const override {
-    return {belief_, estimate_, middle_of(estimate_.cell), confidence_, is_converged()};
+    return {belief_, estimate_, middle_of(estimate_.cell), yaw_rad(), confidence_, is_converged()};
   }
   /// The odometry frame jumped (time went back, another bag): the next update only corrects.
   void forget_odometry() { T_odom_last_.reset(); }
@@ -120,6 +120,8 @@ class BeliefFilter : public Localizer {
   Correction settle(double evidence);
   double news_in(const Displacement& driven) const;
   void summarise();
+  /// Of the robot in the axes of the grid.
+  double yaw_rad() const;
   CoarseMap map_;
   LocalizationParams params_;
   std::unique_ptr<MotionModel> motion_;

@@ -21,7 +21,7 @@ class GivenPose : public Localizer {
   }
   void reset_heading(Heading /*heading*/) override {}
   Localization localization() const override {
-    return {belief_, estimate_, position_cells_, 1.0, true};
+    return {belief_, estimate_, position_cells_, yaw_rad_, 1.0, true};
   }
 
  private:
@@ -31,6 +31,7 @@ class GivenPose : public Localizer {
   Belief belief_;
   Estimate estimate_;
   Point2 position_cells_;
+  double yaw_rad_ = 0.0;
 };
 
 }  // namespace cmn

@@ -17,14 +17,20 @@ namespace cmn {
 
 struct LatticeParams {
   double reach_m = 3.0;
-  double clearance_m = 0.21;
+  double clearance_m = 0.19;
+  double comfort_m = 0.3;
+  double discomfort = 0.5;
   double turn_cost_m = 0.1;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("reach_m", self.reach_m, Between{0.2, 20.0},
           "[m] lattice search: how far ahead, behind and aside of the robot");
     visit("clearance_m", self.clearance_m, Between{0.0, 2.0},
-          "[m] lattice search: from the robot's middle to the nearest thing seen");
+          "[m] lattice search: least distance from the robot's middle to what is seen");
+    visit("comfort_m", self.comfort_m, Between{0.0, 2.0},
+          "[m] lattice search: from this distance on, nearness costs nothing");
+    visit("discomfort", self.discomfort, Between{0.0, 100.0},
+          "[-] lattice search: a step at clearance_m costs as much more as so many of its length");
     visit("turn_cost_m", self.turn_cost_m, Between{0.0, 5.0},
           "[m] lattice search: a quarter turn costs as much as so long a way");
   }
@@ -32,17 +38,35 @@ struct LatticeParams {
 
 /// A pose that the robot can drive to, in steps of the lattice from where it stands.
 struct LatticeState {
-  Cell offset;            ///< [steps] x forward, y left of the robot
-  int quarter_turns = 0;  ///< of the robot there against now, 0 to 3, to the left
-  double cost_m = 0.0;    ///< way driven plus the price of the turns
-  std::int32_t parent = -1;
+  Cell offset;                            ///< [steps] x forward, y left of the robot
+  int quarter_turns = 0;                  ///< of the robot there against now, 0 to 3, to the left
+  double cost_m = 0.0;                    ///< way driven plus the price of turns and of nearness
+  std::int32_t parent = -1;               ///< index among the states found
   ActionType action = ActionType::kStop;  ///< that leads here from the parent
 };
 
-/// Dijkstra over (step forward, turn left, turn right) through the occupied cells of a local
-/// occupancy grid that is aligned with the robot. A step is possible when its middle and its end
-/// lie on cells that were seen to be free, at least `clearance_m` from everything seen to be
-/// occupied; a robot that stands nearer than that may leave towards more clearance.
+/// How far each cell of a local occupancy grid is from what is seen to be occupied.
+class ClearanceMap {
+ public:
+  void measure(const LocalOccupancy& local);
+  /// [m], from the robot's frame; kUnseen where nothing was seen.
+  double at(Point2 p_robot) const;
+  double at_cell(std::size_t i) const {
+    return is_seen_[i] ? static_cast<double>(clearance_m_[i]) : kUnseen;
+  }
+  static constexpr double kUnseen = -1.0;
+
+ private:
+  int size_ = 0;
+  double resolution_ = 1.0;
+  std::vector<float> clearance_m_;
+  std::vector<char> is_seen_;
+};
+
+/// Dijkstra over (step forward, turn left, turn right) through a local occupancy grid that is
+/// aligned with the robot. A step is possible when its middle and its end lie on cells that were
+/// seen to be free, at least `clearance_m` from everything seen to be occupied; a robot that stands
+/// nearer than that may leave towards more clearance.
 ///
 /// The search does not know the drawing: it tells what is possible, not what is good.
 class LocalLattice {
@@ -50,29 +74,29 @@ class LocalLattice {
   LocalLattice(const LatticeParams& params, double step_m) : params_{params}, step_m_{step_m} {}
 
   /// All poses within reach, in the order of their cost; the first is where the robot stands.
-  /// `may_go_forward` false: the first step ahead is ruled out (a bumper, a guard).
+  /// `may_go_forward` false: the first step ahead is ruled out (a bumper).
   /// The result is good until the next call.
   const std::vector<LatticeState>& search(const LocalOccupancy& local, bool may_go_forward = true);
+  const std::vector<LatticeState>& states() const { return states_; }
+  /// Of the last search.
+  const ClearanceMap& clearance() const { return clearance_; }
   /// The first action on the way to a state of the last search, kStop for the first state.
   ActionType first_action(std::size_t state) const;
-  /// Actions from the robot to a state of the last search.
-  std::vector<ActionType> actions_to(std::size_t state) const;
   double step_m() const { return step_m_; }
+  double least_clearance_m() const { return params_.clearance_m; }
   /// Where a state lies in the robot's frame [m].
   Point2 position_of(const LatticeState& state) const {
     return {state.offset.x * step_m_, state.offset.y * step_m_};
   }
 
  private:
-  void measure_clearance(const LocalOccupancy& local);
-  /// -1 where nothing was seen, [m].
-  double clearance_at(const LocalOccupancy& local, Point2 p_robot) const;
-  bool may_step(const LocalOccupancy& local, Point2 from, Point2 to) const;
+  /// The price of the step between two neighbours of the lattice [m], infinite when impossible.
+  double step_cost_m(Cell from, Cell to) const;
 
   LatticeParams params_;
   double step_m_;
-  std::vector<float> clearance_;  ///< [cells of the local map]
-  std::vector<LatticeState> settled_;
+  ClearanceMap clearance_;
+  std::vector<LatticeState> states_;
 };
 
 }  // namespace cmn

@@ -11,6 +11,7 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
+#include "coarse_map_nav/planning/map_repair.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct PlanningParams {
   std::string policy = "path";
   double step_m = kCmnStep_m;
   LatticeParams lattice;
+  MapRepairParams map_repair;
   int tree_depth = 2;           ///< CMN's released parameters
   bool tree_diagonals = false;  ///< see HeuristicTree
   /// A turn every 1.5 m of CMN's steps. Of 0 to 0.3 it saw most of a flat in 300 and 500 actions.
@@ -36,13 +38,14 @@ struct PlanningParams {
   double reached_confidence = 0.5;
   int max_actions = 500;  ///< CMN: horizon
   std::uint32_t seed = 1;
-  bool needs_local_map() const { return policy == "lattice"; }
+  bool needs_local_map() const { return policy == "lattice" || policy == "belief"; }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path", "lattice"}},
-          "how the next action is chosen: CMN's baseline, CMN, Robb, ours");
+    visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path", "lattice", "belief"}},
+          "how the next action is chosen: CMN's baseline, CMN, Robb, ours on the estimate, ours");
     visit("step_m", self.step_m, Between{0.02, 2.0}, "[m] length of a forward action");
     visit.group("lattice", self.lattice);
+    visit.group("map_repair", self.map_repair);
     visit("tree_depth", self.tree_depth, Between{2, 6}, "[actions] look-ahead of heuristic_tree");
     visit("tree_diagonals", self.tree_diagonals, Anything{},
           "heuristic_tree: the path to the goal may go along diagonals");
@@ -116,22 +119,24 @@ class Planner {
   /// The cells from `from` to the goal along the least cost; empty when there is no way or no goal.
   std::vector<Cell> path_from(Cell from) const;
   int actions() const { return actions_; }
+  /// What the policy has learned about the drawing; null: nothing.
+  const RepairedMap* repaired_map() const { return policy_->repaired_map(); }
 
   /// Less belief than this is taken for none when asking whether the goal can be reached at all.
   static constexpr double kNegligibleMass = 1e-3;
 
  private:
-  bool is_at_goal(const Localization& localization) const;
+  bool is_at_goal(const Situation& situation) const;
   double reachable_mass(const Belief& belief) const;
   Decision end(NavigationState state, double distance_m, std::string text);
-  Decision act(const Localization& localization, bool is_blocked_ahead,
-               const LocalOccupancy* local_map, double distance_m);
+  Decision act(const Situation& situation, double distance_m);
 
   CoarseMap map_;
   PlanningParams params_;
   std::unique_ptr<Policy> policy_;
   std::mt19937_64 rng_;
   std::optional<Cell> goal_;
+  Point2 goal_cells_;  ///< finer than its cell
   CostToGo cost_to_go_;
   int actions_ = 0;
   ActionType last_action_ = ActionType::kStop;

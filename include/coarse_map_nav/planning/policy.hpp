@@ -10,12 +10,14 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 
 namespace cmn {
 
 class CostToGo;
+class RepairedMap;
 
 /// All that a policy may look at.
 struct Situation {
@@ -23,7 +25,9 @@ struct Situation {
   const Belief& belief;
   const CostToGo& cost_to_go;  ///< towards the goal, of the whole map
   Estimate estimate;
-  Point2 position_cells;    ///< finer than its cell
+  Point2 position_cells{};  ///< finer than its cell
+  double yaw_rad = 0.0;     ///< finer than its heading
+  Point2 goal_cells{};      ///< finer than the goal's cell
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
   bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward, or is_stuck
@@ -35,13 +39,22 @@ struct Situation {
 class Policy {
  public:
   virtual ~Policy() = default;
+  /// Comes before the other questions of a decision.
+  virtual void look(const Situation& /*situation*/) {}
   virtual ActionType choose(const Situation& situation, std::mt19937_64& rng) = 0;
   /// Forgets the past: a new goal, a new place.
   virtual void reset() {}
+  /// The cost-to-go of the estimate by a map of the policy's own [m]; nothing: as on the drawing.
+  virtual std::optional<double> distance_to_go_m(const Situation& /*situation*/) {
+    return std::nullopt;
+  }
+  /// What the policy has learned about the drawing; null: nothing.
+  virtual const RepairedMap* repaired_map() const { return nullptr; }
 };
 
 struct PlanningParams;
-/// "random", "heuristic_tree" (CMN), "path" (Robb) or "lattice", by `params.policy`.
+/// "random", "heuristic_tree" (CMN), "path" (Robb), "lattice" or "belief" (ours), by
+/// `params.policy`.
 std::unique_ptr<Policy> make_policy(const PlanningParams& params);
 
 }  // namespace cmn

@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Ours: what is possible by the lattice, what it is worth by the whole belief.
+#pragma once
+
+#include "coarse_map_nav/planning/local_lattice.hpp"
+#include "coarse_map_nav/planning/map_repair.hpp"
+#include "coarse_map_nav/planning/policy.hpp"
+#include "coarse_map_nav/planning/repaired_cost_to_go.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace cmn {
+
+/// Of all poses that the robot can drive to through what it sees, takes the one with the least sum
+/// of the way there and the expected cost-to-go from there, the expectation over where the robot
+/// may be (QMDP, Littman et al. 1995), on a map that is repaired as the robot goes.
+///
+/// A goal on which all hypotheses agree is thus driven to before the belief has converged. While
+/// they disagree, standing still would often be best: then the robot explores.
+class BeliefPolicy : public Policy {
+ public:
+  BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair, double step_m);
+  /// Throws std::invalid_argument without a local map.
+  void look(const Situation& situation) override;
+  ActionType choose(const Situation& situation, std::mt19937_64& rng) override;
+  void reset() override;
+  std::optional<double> distance_to_go_m(const Situation& situation) override;
+  const RepairedMap* repaired_map() const override { return map_ ? &*map_ : nullptr; }
+
+ private:
+  struct Hypothesis {
+    Point2 position_cells;
+    double yaw_rad;
+    double weight;
+  };
+  std::vector<Hypothesis> hypotheses(const Situation& situation) const;
+  /// The state of the lattice with the least expected cost; 0 when that is to stay.
+  std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
+  /// The goal would lead through a gap that the lattice does not fit through: closes it.
+  bool close_gap(const Situation& situation);
+  ActionType explore(const Situation& situation, std::mt19937_64& rng);
+
+  LocalLattice lattice_;
+  MapRepairParams repair_;
+  std::optional<RepairedMap> map_;
+  RepairedCostToGo cost_to_go_;
+  bool is_stale_ = true;  ///< cost_to_go_ no longer is that of map_
+  ActionType last_ = ActionType::kStop;
+};
+
+}  // namespace cmn

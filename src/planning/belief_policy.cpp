@@ -1,0 +1,218 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/planning/belief_policy.hpp"
+
+#include "coarse_map_nav/data/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace cmn {
+namespace {
+
+constexpr std::size_t kMostHypotheses = 100;
+constexpr double kLeastShare = 0.02;  ///< of the best hypothesis; less is left out
+/// The way there is dearer than the cost-to-go counts (turns, nearness): progress must still pay.
+constexpr double kGreed = 2.0;
+constexpr int kMostGaps = 8;  ///< closed in one decision
+
+}  // namespace
+
+BeliefPolicy::BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair,
+                           double step_m)
+    : lattice_{lattice, step_m}, repair_{repair} {}
+
+void BeliefPolicy::reset() {
+  if (map_) {
+    map_->forget_failures();
+  }
+  is_stale_ = true;
+  last_ = ActionType::kStop;
+}
+
+void BeliefPolicy::look(const Situation& situation) {
+  if (situation.local_map == nullptr) {
+    throw std::invalid_argument("the belief policy needs a local map");
+  }
+  if (!map_) {
+    map_.emplace(situation.map, repair_);
+  }
+  lattice_.search(*situation.local_map, !situation.is_stuck);
+  if (repair_.enabled && situation.confidence >= repair_.confidence) {
+    const double yaw_rad = situation.yaw_rad;
+    is_stale_ |= map_->fuse(*situation.local_map, lattice_.clearance(),
+                            lattice_.least_clearance_m(), situation.position_cells, yaw_rad);
+    if (situation.is_stuck) {
+      const double ahead =
+          (lattice_.step_m() + lattice_.least_clearance_m()) / situation.map.resolution();
+      is_stale_ |= map_->mark_failed(
+          map_->part_of(situation.position_cells + turned(Point2{ahead, 0.0}, yaw_rad)));
+    }
+  }
+  if (is_stale_) {
+    cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
+    is_stale_ = false;
+  }
+}
+
+std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) const {
+  const Belief& belief = situation.belief;
+  struct Candidate {
+    Estimate state;
+    double weight;
+  };
+  std::vector<Candidate> candidates;
+  const double least = kLeastShare * situation.estimate.probability;
+  for (const Heading h : kHeadings) {
+    const std::vector<double>& layer = belief.layer(h);
+    for (int y = 0; y < belief.height(); ++y) {
+      const double* row = layer.data() + belief.padded_index({0, y});
+      for (int x = 0; x < belief.width(); ++x) {
+        const double probability = belief.factor() * row[x];
+        if (probability > least) {
+          candidates.push_back({{h, {x, y}, probability}, probability});
+        }
+      }
+    }
+  }
+  if (candidates.size() > kMostHypotheses) {
+    std::nth_element(candidates.begin(), candidates.begin() + kMostHypotheses, candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
+    candidates.resize(kMostHypotheses);
+  }
+  // Within its cell every hypothesis lies as the estimate does in its own.
+  const Point2 within = situation.position_cells - middle_of(situation.estimate.cell);
+  std::vector<Hypothesis> found;
+  double total = 0.0;
+  for (const Candidate& c : candidates) {
+    const int turns = index(c.state.heading) - index(situation.estimate.heading);
+    found.push_back({middle_of(c.state.cell) + turned(within, turns * kPi / 2.0),
+                     situation.yaw_rad + turns * kPi / 2.0, c.weight});
+    total += c.weight;
+  }
+  for (Hypothesis& hypothesis : found) {
+    hypothesis.weight /= total;
+  }
+  return found;
+}
+
+std::size_t BeliefPolicy::best_state(const Situation& situation,
+                                     const std::vector<Hypothesis>& at) const {
+  const double part_m = situation.map.resolution() / map_->cuts();
+  const double parts_per_m = 1.0 / part_m;
+  std::vector<Point2> origins;
+  std::vector<Point2> axes;  // of a metre ahead
+  for (const Hypothesis& hypothesis : at) {
+    origins.push_back(static_cast<double>(map_->cuts()) * hypothesis.position_cells);
+    axes.push_back(turned(Point2{parts_per_m, 0.0}, hypothesis.yaw_rad));
+  }
+  // The four headings of one place share the expectation.
+  Cell place{std::numeric_limits<int>::max(), 0};
+  double to_go_m = 0.0;
+  double least_m = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  const std::vector<LatticeState>& states = lattice_.states();
+  std::vector<double> known;
+  const int reach =
+      1 + std::accumulate(states.begin(), states.end(), 0, [](int most, const LatticeState& s) {
+        return std::max({most, std::abs(s.offset.x), std::abs(s.offset.y)});
+      });
+  const int side = 2 * reach + 1;
+  known.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1.0);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    place = states[i].offset;
+    double& memo = known[static_cast<std::size_t>((place.y + reach) * side + place.x + reach)];
+    if (memo < 0.0) {
+      const Point2 p = lattice_.position_of(states[i]);
+      memo = 0.0;
+      for (std::size_t j = 0; j < at.size(); ++j) {
+        const Point2 there{origins[j].x + axes[j].x * p.x - axes[j].y * p.y,
+                           origins[j].y + axes[j].y * p.x + axes[j].x * p.y};
+        memo += at[j].weight * cost_to_go_.between(there);
+      }
+      memo *= part_m;
+    }
+    to_go_m = memo;
+    if (states[i].cost_m + kGreed * to_go_m < least_m - 1e-6) {
+      least_m = states[i].cost_m + kGreed * to_go_m;
+      best = i;
+    }
+  }
+  return best;
+}
+
+bool BeliefPolicy::close_gap(const Situation& situation) {
+  // Down the cost-to-go from here: the first part where no state of the lattice lies.
+  const double parts_per_m = map_->cuts() / situation.map.resolution();
+  const double yaw_rad = situation.yaw_rad;
+  const Point2 origin = static_cast<double>(map_->cuts()) * situation.position_cells;
+  const double near = std::max(0.75, 0.75 * lattice_.step_m() * parts_per_m);
+  const auto is_in_reach = [&](Cell part) {
+    return std::any_of(
+        lattice_.states().begin(), lattice_.states().end(), [&](const LatticeState& s) {
+          const Point2 p = origin + turned(parts_per_m * lattice_.position_of(s), yaw_rad);
+          return std::max(std::abs(p.x - middle_of(part).x), std::abs(p.y - middle_of(part).y)) <=
+                 near;
+        });
+  };
+  std::optional<Cell> part{map_->part_of(situation.position_cells)};
+  const int farthest = static_cast<int>(parts_per_m * 3.0);
+  for (int i = 0; i < farthest && part; ++i) {
+    if (!is_in_reach(*part)) {
+      return map_->mark_failed(*part);
+    }
+    part = cost_to_go_.next(*part);
+  }
+  return false;
+}
+
+ActionType BeliefPolicy::explore(const Situation& /*situation*/, std::mt19937_64& rng) {
+  // Far, straight on where possible.
+  const std::vector<LatticeState>& states = lattice_.states();
+  std::size_t best = 0;
+  double most = 0.0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    const double far_m = norm(lattice_.position_of(states[i]));
+    const double worth = far_m - 0.3 * states[i].cost_m;
+    if (worth > most) {
+      most = worth;
+      best = i;
+    }
+  }
+  if (best != 0) {
+    return lattice_.first_action(best);
+  }
+  if (last_ == ActionType::kTurnLeft || last_ == ActionType::kTurnRight) {
+    return last_;
+  }
+  return draw_index(rng, 2) == 0 ? ActionType::kTurnLeft : ActionType::kTurnRight;
+}
+
+ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng) {
+  ActionType action = ActionType::kStop;
+  if (situation.is_converged) {
+    const std::vector<Hypothesis> at = hypotheses(situation);
+    std::size_t best = best_state(situation, at);
+    for (int i = 0; best == 0 && i < kMostGaps && close_gap(situation); ++i) {
+      cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
+      best = best_state(situation, at);
+    }
+    action = lattice_.first_action(best);
+  }
+  if (action == ActionType::kStop) {
+    action = explore(situation, rng);
+  }
+  last_ = action;
+  return action;
+}
+
+std::optional<double> BeliefPolicy::distance_to_go_m(const Situation& situation) {
+  return cost_to_go_.between(static_cast<double>(map_->cuts()) * situation.position_cells) *
+         situation.map.resolution() / map_->cuts();
+}
+
+}  // namespace cmn
