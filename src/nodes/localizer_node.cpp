@@ -188,9 +188,4 @@ class LocalizerNode {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "localizer");
-  LocalizerNode node;
-  ros::spin();
-  return 0;
-}
+int main(int argc, char** argv) { return cmn::spin_node<LocalizerNode>(argc, argv, "localizer"); }

@@ -159,8 +159,5 @@ class MotionControllerNode {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "motion_controller");
-  MotionControllerNode node;
-  ros::spin();
-  return 0;
+  return cmn::spin_node<MotionControllerNode>(argc, argv, "motion_controller");
 }

@@ -114,9 +114,4 @@ class PerceptionNode {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "perception");
-  PerceptionNode node;
-  ros::spin();
-  return 0;
-}
+int main(int argc, char** argv) { return cmn::spin_node<PerceptionNode>(argc, argv, "perception"); }

@@ -182,9 +182,4 @@ class PlannerNode {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "planner");
-  PlannerNode node;
-  ros::spin();
-  return 0;
-}
+int main(int argc, char** argv) { return cmn::spin_node<PlannerNode>(argc, argv, "planner"); }

@@ -14,6 +14,14 @@ constexpr float kLeastIncrement_rad = 1e-6F;
 
 bool is_finite(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
 
+std::optional<Pose2> planar_pose(double x, double y, const geometry_msgs::Quaternion& q) {
+  const std::optional<double> yaw = yaw_of(q);
+  if (!yaw || !is_finite(x, y)) {
+    return std::nullopt;
+  }
+  return Pose2{x, y, *yaw};
+}
+
 /// A float of a message as the decimal number it was meant to be: 0.4F is 0.4 again.
 double widened(float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; }
 
@@ -54,11 +62,7 @@ geometry_msgs::Pose pose_message(const Pose2& pose) {
 }
 
 std::optional<Pose2> pose_of(const geometry_msgs::Pose& pose) {
-  const std::optional<double> yaw = yaw_of(pose.orientation);
-  if (!yaw || !is_finite(pose.position.x, pose.position.y)) {
-    return std::nullopt;
-  }
-  return Pose2{pose.position.x, pose.position.y, *yaw};
+  return planar_pose(pose.position.x, pose.position.y, pose.orientation);
 }
 
 geometry_msgs::Transform transform_message(const Pose2& pose) {
@@ -70,11 +74,7 @@ geometry_msgs::Transform transform_message(const Pose2& pose) {
 }
 
 std::optional<Pose2> pose_of(const geometry_msgs::Transform& transform) {
-  const std::optional<double> yaw = yaw_of(transform.rotation);
-  if (!yaw || !is_finite(transform.translation.x, transform.translation.y)) {
-    return std::nullopt;
-  }
-  return Pose2{transform.translation.x, transform.translation.y, *yaw};
+  return planar_pose(transform.translation.x, transform.translation.y, transform.rotation);
 }
 
 nav_msgs::MapMetaData info_of(const CoarseMap& map) {

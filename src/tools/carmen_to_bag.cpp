@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tool_main.hpp"
 #include <boost/program_options.hpp>
 #include <yaml-cpp/yaml.h>
 
@@ -164,11 +165,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "carmen_to_bag: " << e.what() << "\n";
-    return EXIT_FAILURE;
-  }
-}
+int main(int argc, char** argv) { return cmn::tool_main(argc, argv, run); }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <iomanip>
@@ -20,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tool_main.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
@@ -117,11 +117,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "cmn_coarsen: " << e.what() << "\n";
-    return EXIT_FAILURE;
-  }
-}
+int main(int argc, char** argv) { return cmn::tool_main(argc, argv, run); }

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <limits>
 #include <random>
@@ -20,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "tool_main.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
@@ -141,11 +141,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "cmn_journeys: " << e.what() << "\n";
-    return EXIT_FAILURE;
-  }
-}
+int main(int argc, char** argv) { return cmn::tool_main(argc, argv, run); }

@@ -10,17 +10,16 @@
 #include "coarse_map_nav/mapping/sketch.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <exception>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 
+#include "tool_main.hpp"
 #include <boost/program_options.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sys/stat.h>
 
 namespace {
 
@@ -31,18 +30,6 @@ bool ends_with(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-void make_folder(const std::string& path) {
-  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    const std::string folder = path.substr(0, end);
-    if (!folder.empty() && mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) {
-      throw std::runtime_error(folder + ": cannot be made: " + std::strerror(errno));
-    }
-    if (end == std::string::npos) {
-      return;
-    }
-  }
-}
-
 void write_picture(const std::string& path, const cv::Mat& picture) {
   if (!cv::imwrite(path, picture)) {
     throw std::runtime_error(path + ": cannot be written");
@@ -51,7 +38,7 @@ void write_picture(const std::string& path, const cv::Mat& picture) {
 }
 
 void write_stages(const std::string& folder, const cmn::Sketch& sketch) {
-  make_folder(folder);
+  std::filesystem::create_directories(folder);
   for (const cmn::SketchStage& stage : sketch.stages) {
     write_picture(folder + "/" + stage.name + ".png", stage.picture);
   }
@@ -110,7 +97,7 @@ cmn::CoarseMap convert_drawing(const std::string& input, const po::variables_map
   return {sketch.occupied, resolution};
 }
 
-void run(const po::variables_map& options, const cmn::SketchParams& params) {
+void convert(const po::variables_map& options, const cmn::SketchParams& params) {
   const std::string input = options["input"].as<std::string>();
   if (options.count("cells") && options["cells"].as<int>() < 2) {
     throw std::runtime_error("--cells must be at least 2");
@@ -130,48 +117,42 @@ void run(const po::variables_map& options, const cmn::SketchParams& params) {
       is_grid ? convert_grid(input, options) : convert_drawing(input, options, params);
   std::string out = options["out"].as<std::string>();
   out += ends_with(out, ".yaml") ? "" : ".yaml";
-  if (out.find('/') != std::string::npos && out.rfind('/') > 0) {
-    make_folder(out.substr(0, out.rfind('/')));
-  }
+  std::filesystem::create_directories(std::filesystem::absolute(out).parent_path());
   cmn::write_map(out, map);
   describe(map);
   std::cout << "wrote " << out << "\n";
 }
 
+int run(int argc, char** argv) {
+  cmn::SketchParams params;
+  po::options_description shown{
+      "cmn_map INPUT: makes a coarse map of a photo, a drawing, a map_server yaml or a .npy "
+      "grid"};
+  shown.add_options()("help,h", "this text")(
+      "cells", po::value<int>(), "width of the map in cells; drawings: 50, grids: as they are")(
+      "resolution", po::value<double>(), "[m/cell] nominal; drawings and .npy: 0.4")(
+      "out", po::value<std::string>()->default_value("map"), "writes this .yaml and .png")(
+      "stages", po::value<std::string>(), "folder for a picture of every step, and stages.png")(
+      "threshold", po::value<double>(&params.threshold)->default_value(0.0),
+      "darker than this share of the paper is ink; 0: found automatically");
+  po::options_description all;
+  all.add(shown).add_options()("input", po::value<std::string>());
+  po::positional_options_description positional;
+  positional.add("input", 1);
+  po::variables_map options;
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), options);
+  po::notify(options);
+  if (options.count("help")) {
+    std::cout << shown;
+    return EXIT_SUCCESS;
+  }
+  if (!options.count("input")) {
+    throw std::runtime_error("no input is given; see cmn_map --help");
+  }
+  convert(options, params);
+  return EXIT_SUCCESS;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    cmn::SketchParams params;
-    po::options_description shown{
-        "cmn_map INPUT: makes a coarse map of a photo, a drawing, a map_server yaml or a .npy "
-        "grid"};
-    shown.add_options()("help,h", "this text")(
-        "cells", po::value<int>(), "width of the map in cells; drawings: 50, grids: as they are")(
-        "resolution", po::value<double>(), "[m/cell] nominal; drawings and .npy: 0.4")(
-        "out", po::value<std::string>()->default_value("map"), "writes this .yaml and .png")(
-        "stages", po::value<std::string>(), "folder for a picture of every step, and stages.png")(
-        "threshold", po::value<double>(&params.threshold)->default_value(0.0),
-        "darker than this share of the paper is ink; 0: found automatically");
-    po::options_description all;
-    all.add(shown).add_options()("input", po::value<std::string>());
-    po::positional_options_description positional;
-    positional.add("input", 1);
-    po::variables_map options;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
-              options);
-    po::notify(options);
-    if (options.count("help")) {
-      std::cout << shown;
-      return 0;
-    }
-    if (!options.count("input")) {
-      throw std::runtime_error("no input is given; see cmn_map --help");
-    }
-    run(options, params);
-    return 0;
-  } catch (const std::exception& e) {
-    std::cerr << "cmn_map: " << e.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return cmn::tool_main(argc, argv, run); }

@@ -9,12 +9,12 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tool_main.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
@@ -164,11 +164,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "cmn_params: " << e.what() << "\n";
-    return EXIT_FAILURE;
-  }
-}
+int main(int argc, char** argv) { return cmn::tool_main(argc, argv, run); }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ascii_map.hpp"
 #include <gtest/gtest.h>
 
 namespace cmn {
@@ -130,17 +131,6 @@ int count_free_components(const Grid<std::uint8_t>& grid) {
   int count = 0;
   label_free(grid, {0, 0, grid.width(), grid.height()}, count);
   return count;
-}
-
-std::string ascii(const Grid<std::uint8_t>& occupied) {
-  std::string text;
-  for (int y = occupied.height(); y-- > 0;) {
-    for (int x = 0; x < occupied.width(); ++x) {
-      text += occupied({x, y}) != 0 ? '#' : '.';
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 Cell middle_of(const Box& room, double cell) {

@@ -126,8 +126,3 @@ TEST_F(CarmenBag, TransformsGoFromOdometryToTheLaser) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

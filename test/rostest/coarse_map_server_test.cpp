@@ -115,10 +115,3 @@ TEST(CoarseMapServer, DiesAndComesBackWithTheSameMap) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "coarse_map_server_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

@@ -57,9 +57,3 @@ TEST(Demo, EndsAndItsSummaryAgreesWithTheRobot) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "demo_test");
-  return RUN_ALL_TESTS();
-}

@@ -188,10 +188,3 @@ TEST_F(Journey, GoesOnWhenAnyNodeIsKilled) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "journey_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

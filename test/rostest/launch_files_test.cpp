@@ -84,8 +84,3 @@ TEST(LaunchFiles, NameOnlyProgramsOfThePackageThatExist) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

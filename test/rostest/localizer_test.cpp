@@ -395,10 +395,3 @@ TEST_F(LocalizerTest, ARepeatedObservationDoesNotRepeatTheTransform) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "localizer_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

@@ -302,10 +302,3 @@ TEST_F(MotionControllerTest, ANewActionPreemptsTheOneUnderWayAndStopEndsIt) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "motion_controller_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

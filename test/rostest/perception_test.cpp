@@ -204,10 +204,3 @@ TEST_F(Perception, ObserveBringsTheLastObservationOnceMore) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "perception_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

@@ -311,10 +311,3 @@ TEST_F(PlannerTest, AnotherMapOnTheWayEndsAJourneyWhoseGoalItDoesNotHave) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "planner_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

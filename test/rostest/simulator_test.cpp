@@ -142,10 +142,3 @@ TEST_F(RunningSimulator, CommandsThatAreNoNumbersAreIgnored) {
 
 }  // namespace
 }  // namespace cmn
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "simulator_test");
-  const ros::NodeHandle alive;  // between the fixtures, too
-  return RUN_ALL_TESTS();
-}

@@ -29,4 +29,16 @@ inline CoarseMap ascii_map(const std::vector<std::string>& lines, double resolut
   return CoarseMap{std::move(occupied), resolution, T_map_grid};
 }
 
+/// The other way round, for a glance at what came out: '#' or '.', the top row first.
+inline std::string ascii(const Grid<std::uint8_t>& occupied) {
+  std::string text;
+  for (int y = occupied.height(); y-- > 0;) {
+    for (int x = 0; x < occupied.width(); ++x) {
+      text += occupied({x, y}) != 0 ? '#' : '.';
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace cmn

@@ -50,6 +50,15 @@ Params load_params_or_exit(const ros::NodeHandle& private_nh) {
   return params;
 }
 
+/// The main() of a node that only answers messages and timers.
+template <class Node>
+int spin_node(int argc, char** argv, const std::string& name) {
+  ros::init(argc, argv, name);
+  Node node;
+  ros::spin();
+  return 0;
+}
+
 /// Counts what comes in and what is dropped, and tells /diagnostics: rate, age, drops by reason.
 class InputMonitor {
  public:

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "ascii_map.hpp"
 #include "file_fixture.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,17 +25,6 @@ namespace cmn {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string ascii(const Grid<std::uint8_t>& occupied) {
-  std::string text;
-  for (int y = occupied.height(); y-- > 0;) {
-    for (int x = 0; x < occupied.width(); ++x) {
-      text += occupied({x, y}) != 0 ? '#' : '.';
-    }
-    text += '\n';
-  }
-  return text;
-}
 
 /// Free areas: 4-connected sets of free cells.
 int count_rooms(const Grid<std::uint8_t>& occupied) {
