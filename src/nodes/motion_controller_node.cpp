@@ -41,7 +41,7 @@ class MotionControllerNode {
     for (cmn::InputMonitor* input : {&odometry_, &obstacles_, &actions_}) {
       diagnostics_.add(input->name(), input, &cmn::InputMonitor::report);
     }
-    watchdog_ = nh_.createTimer(ros::Duration(0.1), &MotionControllerNode::on_watchdog, this);
+    watchdog_ = nh_.createTimer(ros::Duration(0.05), &MotionControllerNode::on_watchdog, this);
     diagnostics_timer_ = nh_.createTimer(ros::Duration(1.0),
                                          [this](const ros::TimerEvent&) { diagnostics_.update(); });
   }

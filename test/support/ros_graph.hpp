@@ -127,21 +127,27 @@ class NodeProcess {
   std::optional<int> status_;
 };
 
-/// The newest number that /diagnostics gives under a key of a status whose name ends in `name`;
-/// 0 while there is none.
+/// The number under a key of the status whose name ends in `name`, if the message has it.
+inline std::optional<double> diagnosed(const diagnostic_msgs::DiagnosticArray& message,
+                                       const std::string& name, const std::string& key) {
+  for (const auto& status : message.status) {
+    const bool is_it = status.name.size() >= name.size() &&
+                       status.name.substr(status.name.size() - name.size()) == name;
+    for (const auto& entry : status.values) {
+      if (is_it && entry.key == key) {
+        return std::strtod(entry.value.c_str(), nullptr);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// The newest such number; 0 while there is none.
 inline double diagnosed(const Inbox<diagnostic_msgs::DiagnosticArray>& diagnostics,
                         const std::string& name, const std::string& key) {
   double value = 0.0;
-  for (const auto& array : diagnostics.all()) {
-    for (const auto& status : array->status) {
-      const bool is_it = status.name.size() >= name.size() &&
-                         status.name.substr(status.name.size() - name.size()) == name;
-      for (const auto& entry : status.values) {
-        if (is_it && entry.key == key) {
-          value = std::strtod(entry.value.c_str(), nullptr);
-        }
-      }
-    }
+  for (const auto& message : diagnostics.all()) {
+    value = diagnosed(*message, name, key).value_or(value);
   }
   return value;
 }

@@ -18,7 +18,7 @@ struct MotionParams {
   double heading_gain = 2.0;
   double position_tolerance_m = 0.01;
   double yaw_tolerance_deg = 0.5;
-  double odometry_timeout_s = 0.5;
+  double odometry_timeout_s = 0.4;
   double action_timeout_s = 15.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
@@ -38,7 +38,7 @@ struct MotionParams {
     visit("yaw_tolerance_deg", self.yaw_tolerance_deg, Between{0.05, 20.0},
           "[deg] an action ends this close to the axis");
     visit("odometry_timeout_s", self.odometry_timeout_s, Between{0.05, 10.0},
-          "[s] stop when odometry is silent for so long");
+          "[s] stop when odometry is silent for so long; noticed within 0.05 s more");
     visit("action_timeout_s", self.action_timeout_s, Between{0.5, 120.0},
           "[s] give an action up after so long");
   }

@@ -264,8 +264,8 @@ TEST_F(MotionControllerTest, EndsWhenOdometryFallsSilent) {
   controller_.start(4, kForward, now_);
   run_for(0.8);
   const double last_s = now_.stamp_s - kPeriod_s;
-  EXPECT_FALSE(controller_.check_silence(last_s + 0.45));
-  const auto result = controller_.check_silence(last_s + 0.55);
+  EXPECT_FALSE(controller_.check_silence(last_s + 0.35));
+  const auto result = controller_.check_silence(last_s + 0.45);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->action_id, 4U);
   EXPECT_EQ(result->outcome, MotionOutcome::kTimedOut);
