@@ -6,6 +6,7 @@
 #include "coarse_map_nav/DiscreteAction.h"
 #include "coarse_map_nav/MotionResult.h"
 #include "coarse_map_nav/motion/motion_controller.hpp"
+#include "coarse_map_nav/ros/bumper.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
@@ -36,7 +37,6 @@ class MotionControllerNode {
                               ros::TransportHints().tcpNoDelay());
     action_sub_ = nh_.subscribe("action", 5, &MotionControllerNode::on_action, this);
     obstacle_sub_ = nh_.subscribe("obstacle_ahead", 1, &MotionControllerNode::on_obstacle, this);
-    bumper_sub_ = nh_.subscribe("bumper", 1, &MotionControllerNode::on_bumper, this);
     diagnostics_.setHardwareID("base");
     for (cmn::InputMonitor* input : {&odometry_, &obstacles_, &actions_}) {
       diagnostics_.add(input->name(), input, &cmn::InputMonitor::report);
@@ -85,7 +85,7 @@ class MotionControllerNode {
     const bool is_guard_silent =
         std::abs((last_arrival_ - obstacle_arrival_).toSec()) > params_.own.obstacle_timeout_s;
     const cmn::MotionStep step =
-        controller_.step(*last_sample_, obstacle_ahead_ || is_guard_silent, is_bumped_);
+        controller_.step(*last_sample_, obstacle_ahead_ || is_guard_silent, bumper_.is_pressed());
     if (!was_idle) {
       command(step.command);
     }
@@ -97,7 +97,6 @@ class MotionControllerNode {
     obstacle_arrival_ = ros::Time::now();
     obstacles_.received(obstacle_arrival_);
   }
-  void on_bumper(const std_msgs::Bool& bumped) { is_bumped_ = bumped.data != 0; }
 
   /// Odometry may fall silent: then nobody else would stop the base.
   void on_watchdog(const ros::TimerEvent& /*event*/) {
@@ -133,6 +132,7 @@ class MotionControllerNode {
   }
 
   ros::NodeHandle nh_;
+  cmn::Bumper bumper_{nh_};
   cmn::NodeParams<cmn::MotionNodeParams> params_;
   cmn::MotionController controller_;
   cmn::InputMonitor odometry_;
@@ -142,7 +142,6 @@ class MotionControllerNode {
   ros::Time last_arrival_;
   ros::Time obstacle_arrival_;
   bool obstacle_ahead_ = false;
-  bool is_bumped_ = false;
   std::uint32_t active_id_ = 0;
   std::optional<coarse_map_nav::MotionResult> last_result_;
   ros::Publisher cmd_pub_;
@@ -150,7 +149,6 @@ class MotionControllerNode {
   ros::Subscriber odom_sub_;
   ros::Subscriber action_sub_;
   ros::Subscriber obstacle_sub_;
-  ros::Subscriber bumper_sub_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer watchdog_;
   ros::Timer diagnostics_timer_;

@@ -5,6 +5,7 @@
 #include "coarse_map_nav/ros/conversions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,6 +17,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
+#include <topic_tools/shape_shifter.h>
 
 namespace cmn {
 namespace {
@@ -264,6 +266,50 @@ TEST_F(MotionControllerTest, StopsWhenTheGuardFallsSilentOrSeesAnObstacleOnTheWa
   ASSERT_TRUE(tick_until([this] { return has_result(2); }, 3.0)) << node_.output();
   EXPECT_EQ(results_.back().outcome, MotionResult::BLOCKED);
   EXPECT_FALSE(is_moving());
+}
+
+TEST_F(MotionControllerTest, ABumperStopsAForwardStep) {
+  ros::Publisher bumper = nh_.advertise<std_msgs::Bool>("bumper", 1, true);
+  ASSERT_TRUE(tick_until([&] { return bumper.getNumSubscribers() > 0; }));
+  be_heard();
+  start(action(1, DiscreteAction::MOVE_FORWARD, 5.0));
+  std_msgs::Bool pressed;
+  pressed.data = 1;
+  bumper.publish(pressed);
+  ASSERT_TRUE(tick_until([this] { return has_result(1); }, 3.0)) << node_.output();
+  EXPECT_EQ(results_.back().outcome, MotionResult::BLOCKED);
+}
+
+/// What a driver of a Kobuki publishes: uint8 bumper (0 left, 1 center, 2 right), uint8 state.
+topic_tools::ShapeShifter kobuki_bumper_event(std::uint8_t bumper, std::uint8_t state) {
+  std::array<std::uint8_t, 2> bytes{bumper, state};
+  ros::serialization::IStream stream{bytes.data(), static_cast<std::uint32_t>(bytes.size())};
+  topic_tools::ShapeShifter message;
+  message.morph("ffe360cd50f14f9251d9844083e72ac5", "kobuki_msgs/BumperEvent",
+                "uint8 bumper\nuint8 state\n", "0");
+  message.read(stream);
+  return message;
+}
+
+TEST_F(MotionControllerTest, AKobukiStandsUntilAllItsBumpersAreFree) {
+  ros::Publisher bumper = kobuki_bumper_event(0, 0).advertise(nh_, "bumper", 10);
+  ASSERT_TRUE(tick_until([&] { return bumper.getNumSubscribers() > 0; }));
+  be_heard();
+  start(action(1, DiscreteAction::MOVE_FORWARD, 5.0));
+  bumper.publish(kobuki_bumper_event(1, 1));
+  bumper.publish(kobuki_bumper_event(2, 1));
+  bumper.publish(kobuki_bumper_event(2, 0));
+  ASSERT_TRUE(tick_until([this] { return has_result(1); }, 3.0)) << node_.output();
+  EXPECT_EQ(results_.back().outcome, MotionResult::BLOCKED);
+  actions_.publish(action(2, DiscreteAction::MOVE_FORWARD));
+  ASSERT_TRUE(tick_until([this] { return has_result(2); }));
+  EXPECT_EQ(results_.back().outcome, MotionResult::BLOCKED) << "the center is still pressed";
+  bumper.publish(kobuki_bumper_event(1, 0));
+  for (std::uint32_t id = 3; results_.back().outcome != MotionResult::SUCCEEDED; ++id) {
+    ASSERT_LT(id, 50U) << "it stands for ever";
+    actions_.publish(action(id, DiscreteAction::MOVE_FORWARD));
+    ASSERT_TRUE(tick_until([&] { return has_result(id); }));
+  }
 }
 
 TEST_F(MotionControllerTest, WhatIsNoActionIsDroppedAndCounted) {
