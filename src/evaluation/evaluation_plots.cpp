@@ -54,10 +54,10 @@ void for_methods_backwards(const std::vector<std::string>& methods, Action&& act
   }
 }
 
-/// Whether this belief is worth a line.
+/// Whether this belief is worth a line: one that is always sure before the first action is told.
 bool converges(const Rows& rows) {
   return std::any_of(rows.begin(), rows.end(),
-                     [](const EpisodeRow& row) { return row.converged_actions >= 0; });
+                     [](const EpisodeRow& row) { return row.converged_actions > 0; });
 }
 
 void draw_footnote(Svg& svg, const std::string& text, double top) {

@@ -82,12 +82,15 @@ std::vector<std::vector<EpisodeTable>> tables_by_task(const Rows& rows) {
 }
 
 constexpr const char* kColumns =
-    R"(SR: share of episodes that came within the success radius of the goal. SPL: that, weighted by shortest way over way
-driven. In brackets 95 % intervals: Wilson for shares, bootstrap for SPL; they are over episodes in these worlds, not over
-worlds. *Declared SR*: the robot itself said that it had arrived and was within 1 m of the goal; *declared elsewhere*: it
-said so and was not. *Converged*: the belief did, ever; *falsely*: share of those whose first convergence was off by more
-than 1 m or a quarter turn; actions and metres to converge are medians over those that did. *ms / action*: mean wall time
-of seeing, believing and planning, on this machine, with whatever else it was doing. A dash: there is no such number.
+    R"(- **SR**: share of episodes that came within the success radius of the goal. **SPL**: the same, each weighted by the
+  shortest way over the way driven (at most 1). In brackets 95 % intervals, Wilson's for shares, bootstrap for SPL: over
+  episodes in these worlds, not over worlds.
+- **declared SR**: the robot itself said that it had arrived, and was within 1 m of the goal; **declared elsewhere**: it
+  said so and was not. **actions**: mean of an episode.
+- **converged**: at some time half the belief lay within 1 m of its estimate; **falsely**: share of those whose estimate
+  was then off by more than 1 m or a quarter turn. Actions and metres until then: medians of those that converged.
+- **ms / action**: mean wall time of seeing, believing and planning on this machine, whatever else it was doing.
+- A dash: there is no such number.
 )";
 
 std::string task_section(const std::vector<EpisodeTable>& tables) {

@@ -64,27 +64,39 @@ LocalOccupancy true_crop(const CoarseMap& map, const Pose2& T_map_robot) {
   return crop;
 }
 
-/// What a method has for a map, and where the truth lies on it.
+/// What a method has for a map, where the truth lies on it, and its estimates in the world.
 struct GivenMap {
   CoarseMap map;
   std::function<Pose2(const Pose2&)> from_world;
+  std::function<Pose2(const Pose2&)> to_world;
 };
 
 GivenMap given_map(const Scene& scene, const Drawing& drawing, const Method& method,
                    double step_m) {
   if (method.plans_on_world) {
-    return {scene.drivable, [](const Pose2& pose) { return pose; }};
+    const auto same = [](const Pose2& pose) { return pose; };
+    return {scene.drivable, same, same};
   }
   const auto on_drawing = [drawing](const Pose2& pose) { return drawing.world_to_map(pose); };
+  const auto in_world = [drawing](const Pose2& pose) { return drawing.map_to_world(pose); };
   const CoarseMap map = largest_region(drawing.map()).map;
   if (!method.has_metric_map) {
-    return {map, on_drawing};
+    return {map, on_drawing, in_world};
   }
   const double scale = drawing.scale();
-  return {metric(map, scale, step_m), [on_drawing, scale](const Pose2& pose) {
+  return {metric(map, scale, step_m),
+          [on_drawing, scale](const Pose2& pose) {
             const Pose2 nominal = on_drawing(pose);
             return Pose2{nominal.x / scale, nominal.y / scale, nominal.yaw};
+          },
+          [in_world, scale](const Pose2& pose) {
+            return in_world({scale * pose.x, scale * pose.y, pose.yaw});
           }};
+}
+
+Pose2 estimated_pose(const Localization& at, const CoarseMap& map) {
+  return map.T_map_grid() * Pose2{map.resolution() * at.position_cells.x,
+                                  map.resolution() * at.position_cells.y, yaw(at.estimate.heading)};
 }
 
 std::unique_ptr<Localizer> localizer_for(const Method& method, const Task& task,
@@ -133,7 +145,7 @@ class Judge {
     }
   }
   void look_at(const Localization& at, const CoarseMap& map, const Pose2& T_map_true) {
-    if (!at.is_converged || row_.converged_actions >= 0) {
+    if (at.confidence < params_.converged_confidence || row_.converged_actions >= 0) {
       return;
     }
     row_.converged_actions = row_.actions;
@@ -236,7 +248,8 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     const Localization at = navigator.localizer().localization();
     the_judge.look_at(at, given.map, T_map_true);
     if (recorder) {
-      recorder({robot.truth(), at, T_map_true, decision, navigator.local_map()});
+      recorder({robot.truth(), at, T_map_true, given.to_world(estimated_pose(at, given.map)),
+                robot.collisions(), given.map, decision, navigator.local_map()});
     }
     if (decision.state == NavigationState::kReached) {
       the_judge.hear_reached(robot);

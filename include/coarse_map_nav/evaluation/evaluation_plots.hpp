@@ -18,7 +18,8 @@ namespace cmn {
 std::string success_plot(const std::vector<EpisodeTable>& tables, int horizon);
 
 /// Share of episodes whose belief had converged by an action, to the right place (drawn through)
-/// and to any (dotted). Empty when no belief ever converged.
+/// and to any (dotted), for methods that are not told the pose at the start. Empty when no such
+/// belief ever converged.
 std::string convergence_plot(const std::vector<EpisodeTable>& tables, int horizon);
 
 /// SR above SPL: a bar with its 95 % interval for each method.

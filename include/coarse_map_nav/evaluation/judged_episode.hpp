@@ -20,6 +20,9 @@ namespace cmn {
 struct JudgeParams {
   double success_radius_m = 0.4;   ///< CMN's released parameters
   double declared_radius_m = 1.0;  ///< of a REACHED that counts as right
+  /// From here on a belief counts as converged, whatever the method itself makes of it: some act on
+  /// their estimate from the first step on.
+  double converged_confidence = 0.5;
   double least_way_m = 3.0;
   double most_way_m = 20.0;
   SimulationParams simulation;
@@ -47,6 +50,9 @@ struct EpisodeMoment {
   Pose2 T_world_robot;
   Localization localization;
   Pose2 T_map_true;
+  Pose2 T_world_estimate;  ///< where the estimate lies in truth
+  int collisions;          ///< so far
+  const CoarseMap& map;    ///< that the method was given
   const Decision& decision;
   const LocalOccupancy& local_map;
 };
