@@ -3,6 +3,7 @@
 #include "coarse_map_nav/evaluation/run_picture.hpp"
 
 #include "coarse_map_nav/evaluation/canvas.hpp"
+#include "coarse_map_nav/evaluation/map_view.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,15 +18,7 @@ namespace {
 
 using Points = std::vector<cv::Point2d>;
 
-// All colours BGR.
-const cv::Scalar kPaper{247, 249, 250};
-const cv::Scalar kInk{52, 44, 38};
-const cv::Scalar kFaintInk{128, 118, 110};
-const cv::Scalar kWall{96, 84, 74};
-const cv::Scalar kWhite{255, 255, 255};
-const cv::Scalar kEstimate{200, 90, 20};
-const cv::Scalar kTruth{80, 150, 20};
-const cv::Scalar kGoal{150, 20, 190};
+// BGR
 const std::vector<cv::Scalar> kHeat{{255, 255, 255}, {178, 236, 255}, {76, 178, 254},
                                     {40, 90, 245},   {40, 20, 190},   {30, 0, 80}};
 const std::vector<cv::Scalar> kTimes{{140, 60, 60}, {160, 130, 40}, {120, 175, 40}, {40, 205, 225}};
@@ -45,83 +38,6 @@ double faint_on(const CoarseMap& map) {
   return 0.1 / static_cast<double>(std::max<std::size_t>(1, map.free_count()));
 }
 
-/// A grid map that fills an area of the canvas.
-struct View {
-  const CoarseMap* map;
-  cv::Rect2d area;
-
-  double scale() const { return area.width / (map->width() * map->resolution()); }
-  cv::Point2d at(Point2 p_map) const {
-    const Point2 p = inverse(map->T_map_grid()) * p_map;
-    return {area.x + p.x * scale(), area.br().y - p.y * scale()};
-  }
-  /// The direction on the canvas, x right and y up.
-  double turned(double yaw) const { return yaw - map->T_map_grid().yaw; }
-};
-
-View view_in(const CoarseMap& map, cv::Point2d corner, cv::Size2d most) {
-  const double scale = std::min(most.width / map.width(), most.height / map.height());
-  const cv::Size2d size{map.width() * scale, map.height() * scale};
-  return {&map, cv::Rect2d{corner.x + (most.width - size.width) / 2.0, corner.y, size.width,
-                           size.height}};
-}
-
-Points placed(const Points& shape, cv::Point2d at, double size, double yaw) {
-  Points result;
-  for (const cv::Point2d p : shape) {
-    result.emplace_back(at.x + size * (std::cos(yaw) * p.x - std::sin(yaw) * p.y),
-                        at.y - size * (std::sin(yaw) * p.x + std::cos(yaw) * p.y));
-  }
-  return result;
-}
-
-void draw_star(Canvas& canvas, cv::Point2d at, double size) {
-  Points star;
-  for (int i = 0; i < 10; ++i) {
-    const double angle = kPi / 2.0 + i * kPi / 5.0;
-    const double radius = i % 2 == 0 ? 1.0 : 0.45;
-    star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  canvas.polygon(placed(star, at, 1.35 * size, 0.0), kWhite);
-  canvas.polygon(placed(star, at, size, 0.0), kGoal);
-}
-
-/// A dart; hollow: the filter itself is not sure of it.
-void draw_estimate(Canvas& canvas, cv::Point2d at, double size, double yaw, bool is_sure) {
-  const Points dart{{1.15, 0.0}, {-0.8, 0.75}, {-0.4, 0.0}, {-0.8, -0.75}};
-  canvas.polygon(placed(dart, at, 1.2 * size, yaw), kWhite);
-  canvas.polygon(placed(dart, at, 0.95 * size, yaw), kEstimate);
-  if (!is_sure) {
-    canvas.polygon(placed(dart, at, 0.5 * size, yaw), kWhite);
-  }
-}
-
-/// The robot as it really stands, seen from above.
-void draw_robot(Canvas& canvas, cv::Point2d at, double size, double yaw) {
-  canvas.disc(at, 1.2 * size, kWhite);
-  canvas.disc(at, 0.95 * size, kTruth);
-  canvas.polygon(placed({{0.7, 0.0}, {-0.35, 0.45}, {-0.35, -0.45}}, at, size, yaw), kWhite);
-}
-
-void draw_start(Canvas& canvas, cv::Point2d at, double size) {
-  canvas.disc(at, 1.2 * size, kWhite);
-  canvas.disc(at, 0.9 * size, kInk);
-  canvas.disc(at, 0.5 * size, kWhite);
-}
-
-cv::Mat walls_of(const CoarseMap& map) {
-  cv::Mat image(map.height(), map.width(), CV_8UC3, kWhite);
-  for (std::size_t i = 0; i < map.occupied().size(); ++i) {
-    const Cell c = map.occupied().cell_at(i);
-    if (map.is_occupied(c)) {
-      image.at<cv::Vec3b>(map.height() - 1 - c.y, c.x) =
-          cv::Vec3b(cv::saturate_cast<uchar>(kWall[0]), cv::saturate_cast<uchar>(kWall[1]),
-                    cv::saturate_cast<uchar>(kWall[2]));
-    }
-  }
-  return image;
-}
-
 /// The truth as it would lie on the drawing: the warp bends directions, too.
 std::optional<Pose2> on_drawing(const RunSetting& setting, const RunMoment& moment) {
   if (!setting.warp || !moment.T_world_robot) {
@@ -132,12 +48,12 @@ std::optional<Pose2> on_drawing(const RunSetting& setting, const RunMoment& mome
   return Pose2{here.x, here.y, std::atan2(ahead.y - here.y, ahead.x - here.x)};
 }
 
-void draw_drawing(Canvas& canvas, const View& view, const RunSetting& setting,
+void draw_drawing(Canvas& canvas, const MapView& view, const RunSetting& setting,
                   const RunMoment& moment) {
   const double symbol = std::clamp(0.9 * view.area.width / view.map->width(), 6.5, 9.5);
   canvas.picture(belief_cells(setting.map, moment.marginal), view.area);
-  canvas.frame(view.area, kFaintInk, 0.5);
-  draw_star(canvas, view.at(setting.goal_map), 1.1 * symbol);
+  canvas.frame(view.area, kMapColours.faint_ink, 0.5);
+  draw_goal(canvas, view.at(setting.goal_map), 1.1 * symbol);
   if (const std::optional<Pose2> truth = on_drawing(setting, moment)) {
     draw_robot(canvas, view.at(truth->position()), 1.05 * symbol, view.turned(truth->yaw));
   }
@@ -146,7 +62,7 @@ void draw_drawing(Canvas& canvas, const View& view, const RunSetting& setting,
 }
 
 /// The true path up to a time.
-void draw_track(Canvas& canvas, const View& view, const RunRecord& record, double until_s) {
+void draw_track(Canvas& canvas, const MapView& view, const RunRecord& record, double until_s) {
   Points points;
   std::vector<double> shares;
   for (const TrackPoint& point : record.track()) {
@@ -155,19 +71,19 @@ void draw_track(Canvas& canvas, const View& view, const RunRecord& record, doubl
       shares.push_back(point.time_s / std::max(1e-9, record.duration_s()));
     }
   }
-  canvas.polyline(points, kWhite, 6.0);
+  canvas.polyline(points, kMapColours.white, 6.0);
   for (std::size_t i = 1; i < points.size(); ++i) {
     canvas.polyline({points[i - 1], points[i]}, colour_at(kTimes, shares[i]), 3.0);
   }
 }
 
-void draw_world(Canvas& canvas, const View& view, const RunSetting& setting,
+void draw_world(Canvas& canvas, const MapView& view, const RunSetting& setting,
                 const RunRecord& record, double until_s, double symbol) {
   canvas.picture(walls_of(*view.map), view.area);
-  canvas.frame(view.area, kFaintInk, 0.5);
+  canvas.frame(view.area, kMapColours.faint_ink, 0.5);
   draw_track(canvas, view, record, until_s);
   if (setting.goal_world) {
-    draw_star(canvas, view.at(*setting.goal_world), 1.1 * symbol);
+    draw_goal(canvas, view.at(*setting.goal_world), 1.1 * symbol);
   }
   if (record.track().empty()) {
     return;
@@ -184,7 +100,7 @@ void draw_scale(Canvas& canvas, const std::vector<cv::Scalar>& scale, const cv::
     canvas.fill({area.x + i * step, area.y, step, area.height},
                 colour_at(scale, (i + 0.5) / kSteps));
   }
-  canvas.frame(area, kFaintInk, 0.5);
+  canvas.frame(area, kMapColours.faint_ink, 0.5);
 }
 
 /// The symbols, left to right, then the two colour scales in a second row.
@@ -192,10 +108,10 @@ void draw_legend(Canvas& canvas, cv::Point2d at, const RunSetting& setting,
                  const RunRecord& record) {
   constexpr double kSymbol = 8.0;
   const auto entry = [&](const std::string& text) {
-    canvas.text(text, {at.x + 14.0, at.y + 5.0}, kLetter * 0.92, kInk);
+    canvas.text(text, {at.x + 14.0, at.y + 5.0}, kLetter * 0.92, kMapColours.ink);
     at.x += 14.0 + Canvas::text_width(text, kLetter * 0.92) + 34.0;
   };
-  draw_star(canvas, at, kSymbol);
+  draw_goal(canvas, at, kSymbol);
   entry("goal");
   if (setting.world) {
     draw_start(canvas, at, kSymbol * 0.75);
@@ -212,22 +128,22 @@ void draw_legend(Canvas& canvas, cv::Point2d at, const RunSetting& setting,
 
   const double p_faint = faint_on(setting.map);
   constexpr double kScaleWidth = 190.0;
-  canvas.text("belief", {at.x - 8.0, at.y + 5.0}, kLetter * 0.92, kInk);
+  canvas.text("belief", {at.x - 8.0, at.y + 5.0}, kLetter * 0.92, kMapColours.ink);
   at.x += 52.0;
   draw_scale(canvas, kHeat, {at.x, at.y - 7.0, kScaleWidth, 12.0});
   for (double p = 1.0; p > p_faint; p /= 10.0) {
     const double share = std::log(p / p_faint) / std::log(1.0 / p_faint);
     canvas.text(p == 1.0 ? "1" : text_of("%.4g", p), {at.x + share * kScaleWidth, at.y + 20.0},
-                kLetter * 0.72, kFaintInk, Align::kMiddle);
+                kLetter * 0.72, kMapColours.faint_ink, Align::kMiddle);
   }
   at.x += kScaleWidth + 34.0;
   if (setting.world) {
-    canvas.text("time", {at.x, at.y + 5.0}, kLetter * 0.92, kInk);
+    canvas.text("time", {at.x, at.y + 5.0}, kLetter * 0.92, kMapColours.ink);
     at.x += 46.0;
     draw_scale(canvas, kTimes, {at.x, at.y - 7.0, 110.0, 12.0});
-    canvas.text("0", {at.x, at.y + 20.0}, kLetter * 0.72, kFaintInk, Align::kMiddle);
+    canvas.text("0", {at.x, at.y + 20.0}, kLetter * 0.72, kMapColours.faint_ink, Align::kMiddle);
     canvas.text(text_of("%.0f s", record.duration_s()), {at.x + 110.0, at.y + 20.0}, kLetter * 0.72,
-                kFaintInk, Align::kMiddle);
+                kMapColours.faint_ink, Align::kMiddle);
   }
 }
 
@@ -307,12 +223,12 @@ cv::Mat run_picture(const RunSetting& setting, const RunRecord& record, const st
   const double world_height = setting.world ? height_of(*setting.world, world_width, 1600.0) : 0.0;
   const double body = std::max(world_height, 2.0 * height + kBetween);
 
-  Canvas canvas{{kWidth, cvRound(kTop + body + 74.0)}, kPaper};
-  canvas.text(title, {kMargin, 40.0}, 17.0, kInk, Align::kLeft, true);
-  canvas.text(subtitle, {kMargin, 66.0}, kLetter, kFaintInk);
+  Canvas canvas{{kWidth, cvRound(kTop + body + 74.0)}, kMapColours.paper};
+  canvas.text(title, {kMargin, 40.0}, 17.0, kMapColours.ink, Align::kLeft, true);
+  canvas.text(subtitle, {kMargin, 66.0}, kLetter, kMapColours.faint_ink);
   if (setting.world) {
-    canvas.text("the world, and the way driven", {kMargin, kTop - 8.0}, kLetter, kInk);
-    const View view = view_in(*setting.world, {kMargin, kTop}, {world_width, world_height});
+    canvas.text("the world, and the way driven", {kMargin, kTop - 8.0}, kLetter, kMapColours.ink);
+    const MapView view = view_in(*setting.world, {kMargin, kTop}, {world_width, world_height});
     draw_world(canvas, view, setting, record, record.duration_s(), 9.0);
   }
   const std::array<const char*, 4> names{"start", "at 1/3", "at 2/3", "end"};
@@ -324,7 +240,7 @@ cv::Mat run_picture(const RunSetting& setting, const RunRecord& record, const st
     const cv::Point2d corner{left + static_cast<double>(i % 2) * (width + kMargin),
                              kTop + static_cast<double>(i / 2) * (height + kBetween)};
     canvas.text(std::string{names[i]} + ": " + caption_of(moment), {corner.x, corner.y - 8.0},
-                kLetter, kInk);
+                kLetter, kMapColours.ink);
     draw_drawing(canvas, view_in(setting.map, corner, {width, height}), setting, moment);
   }
   draw_legend(canvas, {kMargin + 10.0, kTop + body + 38.0}, setting, record);
@@ -349,10 +265,10 @@ std::vector<FilmFrame> run_film(const RunSetting& setting, const RunRecord& reco
     const RunMoment& moment =
         is_last ? record.moments().back()
                 : record.moments()[i * (record.moments().size() - 1) / (count - 1)];
-    Canvas canvas{size, kPaper};
-    canvas.text(title, {kGap, 24.0}, 12.0, kInk, Align::kLeft, true);
+    Canvas canvas{size, kMapColours.paper};
+    canvas.text(title, {kGap, 24.0}, 12.0, kMapColours.ink, Align::kLeft, true);
     canvas.text(caption_of(moment) + (is_last ? ": " + ending : ""), {kGap, 48.0}, 10.0,
-                is_last ? kInk : kFaintInk);
+                is_last ? kMapColours.ink : kMapColours.faint_ink);
     draw_drawing(canvas, view_in(setting.map, {kGap, kTop}, {kPanel, height}), setting, moment);
     if (setting.world) {
       draw_world(canvas, view_in(*setting.world, {2.0 * kGap + kPanel, kTop}, {kPanel, height}),
