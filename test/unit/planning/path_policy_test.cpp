@@ -22,8 +22,11 @@ constexpr auto kRight = ActionType::kTurnRight;
 class PathPolicyTest : public testing::Test {
  protected:
   Situation at(Heading heading, Cell cell, bool is_blocked_ahead = false) const {
-    return {map_, belief_, cost_,           Estimate{heading, cell, 1.0}, middle_of(cell),
-            1.0,  true,    is_blocked_ahead};
+    Situation situation{map_, belief_, cost_, Estimate{heading, cell, 1.0}};
+    situation.confidence = 1.0;
+    situation.is_converged = true;
+    situation.is_blocked_ahead = is_blocked_ahead;
+    return situation;
   }
   CoarseMap map_ = ascii_map({
       "....",
