@@ -15,6 +15,8 @@ const std::vector<Method>& methods() {
     cmn.knows_heading = cmn.ends_by_judge = true;
     Method robb{"robb", "cmn.yaml"};
     robb.has_shared_planner = false;
+    Method mcse{"mcse", "mcse.yaml"};
+    mcse.knows_heading = mcse.ends_by_judge = true;
     Method rmn{"rmn", "rmn.yaml"};
     rmn.knows_heading = rmn.has_metric_map = rmn.ends_by_judge = true;
     Method rnd{"rnd", "random.yaml"};
@@ -26,7 +28,7 @@ const std::vector<Method>& methods() {
     Method oracle{"oracle", "navigator.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
     oracle.has_shared_planner = false;
-    return std::vector<Method>{ours, cmn, robb, rmn, rnd, true_pose, oracle};
+    return std::vector<Method>{ours, cmn, robb, mcse, rmn, rnd, true_pose, oracle};
   }();
   return kMethods;
 }

@@ -233,8 +233,9 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   for (std::size_t i = 0; i + 1 < moves.size(); ++i) {
     apply(moves[i], driven.quarter_turns, nullptr, 0.0);
   }
-  const Likelihood& likelihood =
-      measurement_->measure(seen, residual_yaw(T_odom_robot), is_first ? 1.0 : news_in(driven));
+  const Likelihood& likelihood = measurement_->measure(
+      seen, residual_yaw(T_odom_robot),
+      is_first ? 1.0 : params_.news_in(std::hypot(driven.forward_m, driven.left_m)));
   const double evidence =
       apply(moves.back(), driven.quarter_turns, &likelihood, params_.contradiction_evidence);
   if (evidence == 0.0) {
@@ -250,11 +251,6 @@ Pose2 BeliefFilter::T_map_robot() const {
 
 double BeliefFilter::yaw_rad() const {
   return yaw(estimate_.heading) + (T_odom_last_ ? residual_yaw(*T_odom_last_) : 0.0);
-}
-
-double BeliefFilter::news_in(const Displacement& driven) const {
-  const double way_m = std::hypot(driven.forward_m, driven.left_m);
-  return way_m >= params_.independence_m ? 1.0 : way_m / params_.independence_m;
 }
 
 Correction BeliefFilter::settle(double evidence) {

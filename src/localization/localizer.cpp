@@ -3,6 +3,7 @@
 #include "coarse_map_nav/localization/localizer.hpp"
 
 #include "coarse_map_nav/localization/belief_filter.hpp"
+#include "coarse_map_nav/localization/particle_filter.hpp"
 
 #include <stdexcept>
 
@@ -12,7 +13,11 @@ std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const Localizati
   if (params.filter == "discrete") {
     return std::make_unique<BeliefFilter>(map, params);
   }
-  throw std::invalid_argument("localization filter \"" + params.filter + "\" is none of discrete");
+  if (params.filter == "particle") {
+    return std::make_unique<ParticleFilter>(map, params);
+  }
+  throw std::invalid_argument("localization filter \"" + params.filter +
+                              "\" is none of discrete, particle");
 }
 
 }  // namespace cmn

@@ -7,6 +7,7 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -25,6 +26,12 @@ inline std::size_t draw_index(std::mt19937_64& rng, std::size_t count) {
 inline double draw_normal(std::mt19937_64& rng) {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - draw_uniform(rng)));
   return radius * std::cos(2.0 * kPi * draw_uniform(rng));
+}
+/// Two such numbers, independent of each other, for the price of one.
+inline std::array<double, 2> draw_two_normals(std::mt19937_64& rng) {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - draw_uniform(rng)));
+  const double angle = 2.0 * kPi * draw_uniform(rng);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 }  // namespace cmn

@@ -13,6 +13,7 @@
 #include "coarse_map_nav/localization/measurement_model.hpp"
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
+#include "coarse_map_nav/localization/particle_params.hpp"
 
 #include <array>
 #include <cstdint>
@@ -28,18 +29,26 @@ struct LocalizationParams {
   std::string filter = "discrete";
   MotionModelParams motion;
   MeasurementModelParams measurement;
+  ParticleParams particles;
   double independence_m = 0.0;
   double converged_confidence = 0.5;
   double contradiction_evidence = 1e-6;
   int reopen_after = 3;
   double reopen_weight = 0.5;
   std::uint32_t seed = 1;
+  /// How much of a look is news after a way of `way_m`.
+  double news_in(double way_m) const {
+    return way_m >= independence_m ? 1.0 : way_m / independence_m;
+  }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("filter", self.filter, OneOf{{"discrete"}},
-          "discrete: a belief over headings and cells (CMN, Robb)");
+    visit(
+        "filter", self.filter, OneOf{{"discrete", "particle"}},
+        "discrete: a belief over headings and cells (CMN, Robb); particle: poses and local scales "
+        "(CMN's baseline MCSE)");
     visit.group("motion", self.motion);
     visit.group("measurement", self.measurement);
+    visit.group("particles", self.particles);
     visit("independence_m", self.independence_m, Between{0.0, 10.0},
           "[m] looks so far apart are independent evidence, nearer ones count in proportion; "
           "0: every look counts in full (CMN, Robb)");
@@ -118,7 +127,6 @@ class BeliefFilter : public Localizer {
   void restart(Belief belief);
   void start_from(Belief belief);
   Correction settle(double evidence);
-  double news_in(const Displacement& driven) const;
   void summarise();
   /// Of the robot in the axes of the grid.
   double yaw_rad() const;

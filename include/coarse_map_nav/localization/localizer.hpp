@@ -28,7 +28,7 @@ class Localizer {
 };
 
 struct LocalizationParams;
-/// "discrete" (CMN, Robb), by `params.filter`.
+/// "discrete" (CMN, Robb) or "particle" (CMN's baseline MCSE), by `params.filter`.
 std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const LocalizationParams& params);
 
 }  // namespace cmn
