@@ -3,7 +3,10 @@
 #include "coarse_map_nav/evaluation/drawing.hpp"
 
 #include "coarse_map_nav/mapping/downsample.hpp"
+#include "coarse_map_nav/simulation/world.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace cmn {
@@ -44,7 +47,19 @@ Jacobian2 Drawing::jacobian(Point2 world) const {
   return {x.x, y.x, x.y, y.y};
 }
 
-Drawing coarse_grid(const CoarseMap& world, double mpp) { return Drawing{downsampled(world, mpp)}; }
+Drawing coarse_grid(const CoarseMap& world, double mpp, double clearance_m) {
+  if (!(clearance_m > 0.0)) {
+    return Drawing{downsampled(world, mpp)};
+  }
+  const World ground{world};
+  Grid<std::uint8_t> occupied{world.width(), world.height()};
+  for (std::size_t i = 0; i < occupied.size(); ++i) {
+    const Point2 p = world.center_of(occupied.cell_at(i));
+    occupied[i] = ground.is_disc_free(p, clearance_m) ? 0 : 1;
+  }
+  const CoarseMap narrowed{std::move(occupied), world.resolution(), world.T_map_grid()};
+  return Drawing{downsampled(narrowed, mpp)};
+}
 
 Drawing walls_only(const CoarseMap& world, double mpp, const WallParams& params) {
   return coarse_grid(without_furniture(world, params), mpp);

@@ -87,10 +87,8 @@ void forget_furniture(cv::Mat& free, double pixels_per_metre, const HandDrawingP
       continue;
     }
     const cv::Mat shape = island(box) == i;
-    cv::Mat cleared = free.clone();
-    cleared(box).setTo(255, shape);
+    free(box).setTo(255, shape);
     if (lot < params.dropped_share) {
-      free = cleared;
       continue;
     }
     const cv::Rect moved =
@@ -98,10 +96,9 @@ void forget_furniture(cv::Mat& free, double pixels_per_metre, const HandDrawingP
                         static_cast<int>(std::lround(way * std::sin(direction))));
     const cv::Rect around{moved.x - clearance, moved.y - clearance, moved.width + 2 * clearance,
                           moved.height + 2 * clearance};
-    if ((around & sheet) == around && cv::countNonZero(cleared(around)) == around.area()) {
-      cleared(moved).setTo(0, shape);
-      free = cleared;
-    }
+    const bool stands_free =
+        (around & sheet) == around && cv::countNonZero(free(around)) == around.area();
+    free(stands_free ? moved : box).setTo(0, shape);
   }
 }
 
@@ -112,25 +109,32 @@ struct FittedWarp {
 };
 
 FittedWarp fit(const SmoothWarp& full, double stretch, const std::vector<Point2>& places) {
-  FittedWarp fitted{full};
-  for (int attempt = 0; attempt < 100; ++attempt) {
+  constexpr double kStep = 0.97;
+  std::vector<Jacobian2> slopes;
+  slopes.reserve(places.size());
+  for (const Point2 p : places) {
+    slopes.push_back(full.jacobian(p));
+  }
+  double height = 1.0;
+  while (true) {
     double area = 0.0;
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (const Point2 p : places) {
-      const Jacobian2 j = fitted.warp.jacobian(p);
+    for (const Jacobian2& slope : slopes) {
+      const Jacobian2 j{1.0 + height * (slope.xx - 1.0), height * slope.xy, height * slope.yx,
+                        1.0 + height * (slope.yy - 1.0)};
       const std::pair<double, double> stretches = j.stretches();
       area += j.determinant();
       least = std::min(least, stretches.first);
       most = std::max(most, stretches.second);
     }
-    fitted.mean = std::sqrt(area / static_cast<double>(places.size()));
-    if (least / fitted.mean >= 1.0 - stretch && most / fitted.mean <= 1.0 + stretch) {
-      break;
+    const double mean = std::sqrt(area / static_cast<double>(places.size()));
+    const bool is_within = least >= (1.0 - stretch) * mean && most <= (1.0 + stretch) * mean;
+    if (is_within || height < 1e-6) {
+      return {full.scaled(height), mean};
     }
-    fitted.warp = fitted.warp.scaled(0.95);
+    height *= kStep;
   }
-  return fitted;
 }
 
 Point2 world_point(const CoarseMap& world, double column, double row) {
@@ -213,6 +217,9 @@ Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
   Drawing pen{CoarseMap{}, fitted.warp, scale, turns, {}, mean};
   Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point2 high{-low.x, -low.y};
+  cv::Mat inner;
+  cv::erode(free, inner, cv::Mat{});
+  cv::findNonZero(free & ~inner, pixels);
   for (const cv::Point pixel : pixels) {
     const Point2 q = pen.world_to_map(world_point(world, pixel.x + 0.5, pixel.y + 0.5));
     low = {std::min(low.x, q.x), std::min(low.y, q.y)};
@@ -225,8 +232,8 @@ Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
   pen = Drawing{CoarseMap{}, fitted.warp, scale, turns, shift, mean};
 
   // Pixels so small that the thinnest wall, 3 of the world's cells, is never stepped over.
-  const double step = 1.5 * world.resolution() * scale * fitted.mean * (1.0 - params.stretch) *
-                      (1.0 - kWobbleSlope);
+  const double step = 2.0 * world.resolution() * scale * fitted.mean * (1.0 - params.stretch) /
+                      (1.0 + kWobbleSlope);
   const int per_cell = std::max(6, static_cast<int>(std::ceil(mpp / step)));
   cv::Mat from_x;
   cv::Mat from_y;

@@ -66,6 +66,8 @@ int run(int argc, char** argv) {
   options.add_options()("help", "print this")("world", po::value<std::string>(), "the metric map")(
       "kind", po::value<std::string>()->default_value("grid"), "grid, walls or hand_drawn")(
       "mpp", po::value<double>()->default_value(0.4), "metres per pixel (cell) of the coarse map")(
+      "clearance", po::value<double>()->default_value(0.0),
+      "of grid: ground counts as occupied this near to anything [m], as in CMN's maps")(
       "seed", po::value<std::uint32_t>()->default_value(1), "which of all drawings")(
       "out", po::value<std::string>(), "the map to write, .yaml");
   po::variables_map given;
@@ -82,10 +84,12 @@ int run(int argc, char** argv) {
     throw std::runtime_error("WORLD.yaml and --out X.yaml are needed; --help explains");
   }
   const auto mpp = given["mpp"].as<double>();
+  const auto clearance = given["clearance"].as<double>();
   const auto seed = given["seed"].as<std::uint32_t>();
   using Draw = std::function<cmn::Drawing(const cmn::CoarseMap&)>;
   const std::map<std::string, Draw> kinds{
-      {"grid", [&](const cmn::CoarseMap& world) { return cmn::coarse_grid(world, mpp); }},
+      {"grid",
+       [&](const cmn::CoarseMap& world) { return cmn::coarse_grid(world, mpp, clearance); }},
       {"walls", [&](const cmn::CoarseMap& world) { return cmn::walls_only(world, mpp); }},
       {"hand_drawn",
        [&](const cmn::CoarseMap& world) { return cmn::hand_drawn(world, mpp, seed); }}};

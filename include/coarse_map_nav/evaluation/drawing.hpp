@@ -56,8 +56,13 @@ class Drawing {
 
 /// The coarse grid of the CMN paper (downsampled()): a cell of `mpp` metres is occupied when more
 /// than half of it is. To scale, in the frame of the world. For the floor plan of a generated
-/// house, hand it the house's walls. Throws std::invalid_argument as downsampled() does.
-Drawing coarse_grid(const CoarseMap& world, double mpp);
+/// house, hand it the house's walls.
+///
+/// With a clearance, ground counts as occupied where the middle of a disc of that radius [m] cannot
+/// be. Habitat's maps of Gibson, which CMN makes coarse, are of this kind: their walls are twice
+/// the robot's radius thicker than the real ones. Without it, a wall thinner than half a cell is
+/// lost. Throws std::invalid_argument as downsampled() does.
+Drawing coarse_grid(const CoarseMap& world, double mpp, double clearance_m = 0.0);
 
 /// What counts as furniture in a building that nobody has labelled.
 struct WallParams {

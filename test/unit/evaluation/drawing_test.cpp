@@ -57,6 +57,18 @@ TEST(CoarseGrid, IsTheDownsampledWorldInItsOwnFrame) {
   EXPECT_EQ(drawing.quarter_turns(), 0);
 }
 
+TEST(CoarseGrid, WithAClearanceKeepsThinWalls) {
+  Hall hall{8.0, 4.0};
+  hall.block(4.0, 0.0, 4.1, 2.5);
+  const auto is_wall_kept = [&](double clearance) {
+    const CoarseMap map = coarse_grid(hall.world(), 0.4, clearance).map();
+    return !is_free_at(map, 3.9, 1.0) || !is_free_at(map, 4.1, 1.0);
+  };
+  EXPECT_FALSE(is_wall_kept(0.0));
+  EXPECT_TRUE(is_wall_kept(0.18));
+  EXPECT_TRUE(is_free_at(coarse_grid(hall.world(), 0.4, 0.18).map(), 4.1, 3.3));
+}
+
 TEST(Drawing, ScalesTurnsAndShiftsInThisOrder) {
   const Drawing drawing{ascii_map({"."}), SmoothWarp{}, 2.0, 1, {10.0, 20.0}, 2.0};
   const Pose2 pose = drawing.world_to_map(Pose2{3.0, 1.0, 0.5});
