@@ -47,16 +47,20 @@ std::string text_of(const char* format, Values... values) {
   return text.data();
 }
 
-/// How it went, in a line.
+/// How it went, in a few words.
+std::string short_outcome_of(const EpisodeRow& row) {
+  return row.is_success ? text_of("at the goal after %d actions and %.1f m, SPL %.2f",
+                                  row.success_actions, row.success_driven_m, row.spl())
+                        : text_of("never nearer to the goal than %.1f m in %d actions",
+                                  row.closest_m, row.actions);
+}
+
 std::string outcome_of(const EpisodeRow& row) {
-  std::string text = row.is_success
-                         ? text_of("at the goal after %d actions and %.1f m", row.success_actions,
-                                   row.success_driven_m)
-                         : text_of("never nearer to the goal than %.1f m", row.closest_m);
-  text += text_of(" (shortest way %.1f m, SPL %.2f); ", row.shortest_m, row.spl());
-  text += row.is_declared ? (row.is_declared_right ? "said so, rightly" : "said so elsewhere")
-                          : "did not say so";
-  return text + text_of("; %d collisions", row.collisions);
+  const char* said = !row.is_declared        ? "did not say so"
+                     : row.is_declared_right ? "said so, rightly"
+                                             : "said so elsewhere";
+  return short_outcome_of(row) +
+         text_of("; shortest way %.1f m; %s; %d collisions", row.shortest_m, said, row.collisions);
 }
 
 cv::Scalar colour_of_method(const std::string& method, const std::vector<std::string>& methods) {
@@ -120,8 +124,10 @@ double drawn_height(const CoarseMap& world) {
 void draw_estimates(Canvas& canvas, const MapView& view, const EpisodeTrace& trace) {
   for (const bool is_sure : {false, true}) {  // those that matter on top
     for (const TraceStep& step : trace.steps) {
-      if ((step.confidence >= trace.converged_confidence) == is_sure) {
-        canvas.disc(view.at(step.T_world_estimate.position()), is_sure ? 2.4 : 1.8,
+      const cv::Point2d at = view.at(step.T_world_estimate.position());
+      const bool is_due = (step.confidence >= trace.converged_confidence) == is_sure;
+      if (is_due && view.area.contains(at)) {
+        canvas.disc(at, is_sure ? 2.4 : 1.8,
                     !is_sure          ? kUnsure
                     : step.is_right() ? kRight
                                       : kWrong);
@@ -349,7 +355,8 @@ cv::Mat trace_comparison(const std::vector<EpisodeTrace>& traces) {
                     2.6);
     canvas.text(method_label(trace.row.key.method), {at.x + 32.0, at.y + 4.0}, kLetter,
                 kMapColours.ink);
-    canvas.text(outcome_of(trace.row), {at.x + 120.0, at.y + 4.0}, kLetter, kMapColours.faint_ink);
+    canvas.text(short_outcome_of(trace.row), {at.x + 120.0, at.y + 4.0}, kLetter,
+                kMapColours.faint_ink);
   }
   draw_ends(canvas, view, first);
   return canvas.finished();

@@ -73,7 +73,7 @@ std::string success_plot(const std::vector<EpisodeTable>& tables, int horizon) {
   assert(!tables.empty());
   const std::vector<std::string> methods = methods_in(tables);
   constexpr double kWhisker = 9.0;  ///< width of one interval beside a panel
-  const double beside = 8.0 + kWhisker * static_cast<double>(methods.size());
+  const double beside = std::max(52.0, 8.0 + kWhisker * static_cast<double>(methods.size()));
   const double panel_width = kCurveWidth + beside + kPlotGap;
   const double width =
       kPlotLeft + panel_width * static_cast<double>(tables.size()) - kPlotGap + kPlotRight;
