@@ -248,8 +248,9 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     const Localization at = navigator.localizer().localization();
     the_judge.look_at(at, given.map, T_map_true);
     if (recorder) {
-      recorder({robot.truth(), at, T_map_true, given.to_world(estimated_pose(at, given.map)),
-                robot.collisions(), given.map, decision, navigator.local_map()});
+      const Pose2 T_map_estimate = estimated_pose(at, given.map);
+      recorder({robot.truth(), at, T_map_true, T_map_estimate, given.to_world(T_map_estimate),
+                robot.collisions(), given.map, goal.position(), decision, navigator.local_map()});
     }
     if (decision.state == NavigationState::kReached) {
       the_judge.hear_reached(robot);

@@ -40,6 +40,9 @@ double faint_on(const CoarseMap& map) {
 
 /// The truth as it would lie on the drawing: the warp bends directions, too.
 std::optional<Pose2> on_drawing(const RunSetting& setting, const RunMoment& moment) {
+  if (moment.T_map_robot) {
+    return moment.T_map_robot;
+  }
   if (!setting.warp || !moment.T_world_robot) {
     return std::nullopt;
   }
@@ -142,8 +145,8 @@ void draw_legend(Canvas& canvas, cv::Point2d at, const RunSetting& setting,
     at.x += 46.0;
     draw_scale(canvas, kTimes, {at.x, at.y - 7.0, 110.0, 12.0});
     canvas.text("0", {at.x, at.y + 20.0}, kLetter * 0.72, kMapColours.faint_ink, Align::kMiddle);
-    canvas.text(text_of("%.0f s", record.duration_s()), {at.x + 110.0, at.y + 20.0}, kLetter * 0.72,
-                kMapColours.faint_ink, Align::kMiddle);
+    canvas.text(text_of("%.0f ", record.duration_s()) + setting.time_unit,
+                {at.x + 110.0, at.y + 20.0}, kLetter * 0.72, kMapColours.faint_ink, Align::kMiddle);
   }
 }
 
@@ -167,8 +170,8 @@ const RunMoment& moment_at(const RunRecord& record, double time_s) {
                            });
 }
 
-std::string caption_of(const RunMoment& moment) {
-  return text_of("%.0f s", std::max(0.0, moment.time_s)) + ", " +
+std::string caption_of(const RunSetting& setting, const RunMoment& moment) {
+  return text_of("%.0f ", std::max(0.0, moment.time_s)) + setting.time_unit + ", " +
          text_of("%.0f %% sure", 100.0 * moment.confidence);
 }
 
@@ -239,8 +242,8 @@ cv::Mat run_picture(const RunSetting& setting, const RunRecord& record, const st
                  : moment_at(record, static_cast<double>(i) / 3.0 * record.moments().back().time_s);
     const cv::Point2d corner{left + static_cast<double>(i % 2) * (width + kMargin),
                              kTop + static_cast<double>(i / 2) * (height + kBetween)};
-    canvas.text(std::string{names[i]} + ": " + caption_of(moment), {corner.x, corner.y - 8.0},
-                kLetter, kMapColours.ink);
+    canvas.text(std::string{names[i]} + ": " + caption_of(setting, moment),
+                {corner.x, corner.y - 8.0}, kLetter, kMapColours.ink);
     draw_drawing(canvas, view_in(setting.map, corner, {width, height}), setting, moment);
   }
   draw_legend(canvas, {kMargin + 10.0, kTop + body + 38.0}, setting, record);
@@ -267,7 +270,7 @@ std::vector<FilmFrame> run_film(const RunSetting& setting, const RunRecord& reco
                 : record.moments()[i * (record.moments().size() - 1) / (count - 1)];
     Canvas canvas{size, kMapColours.paper};
     canvas.text(title, {kGap, 24.0}, 12.0, kMapColours.ink, Align::kLeft, true);
-    canvas.text(caption_of(moment) + (is_last ? ": " + ending : ""), {kGap, 48.0}, 10.0,
+    canvas.text(caption_of(setting, moment) + (is_last ? ": " + ending : ""), {kGap, 48.0}, 10.0,
                 is_last ? kMapColours.ink : kMapColours.faint_ink);
     draw_drawing(canvas, view_in(setting.map, {kGap, kTop}, {kPanel, height}), setting, moment);
     if (setting.world) {

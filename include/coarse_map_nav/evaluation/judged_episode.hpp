@@ -50,9 +50,11 @@ struct EpisodeMoment {
   Pose2 T_world_robot;
   Localization localization;
   Pose2 T_map_true;
+  Pose2 T_map_estimate;
   Pose2 T_world_estimate;  ///< where the estimate lies in truth
   int collisions;          ///< so far
   const CoarseMap& map;    ///< that the method was given
+  Point2 goal_map;         ///< on it [m]
   const Decision& decision;
   const LocalOccupancy& local_map;
 };

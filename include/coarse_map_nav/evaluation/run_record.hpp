@@ -23,6 +23,7 @@ struct RunSetting {
   std::optional<CoarseMap> world;    ///< the metric one that is driven in
   std::optional<Point2> goal_world;  ///< [m] where the goal really is
   std::optional<PlaceWarp> warp;     ///< shows the truth on the drawing
+  std::string time_unit = "s";       ///< of all times: what is written after them
 };
 
 /// What was believed at one moment, and what was true.
@@ -33,6 +34,7 @@ struct RunMoment {
   double confidence = 0.0;
   bool converged = false;
   std::optional<Pose2> T_world_robot;  ///< the truth, where it is known
+  std::optional<Pose2> T_map_robot;    ///< the same on the drawing; empty: by the setting's warp
 };
 
 /// One point of the true path.
