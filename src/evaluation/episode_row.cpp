@@ -8,6 +8,7 @@
 #include <istream>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -109,6 +110,22 @@ std::string EpisodeKey::id() const {
   char number[32];
   std::snprintf(number, sizeof number, "%.2f", mpp);
   return task + "-" + number + "-" + world + "-" + std::to_string(index) + "-" + method;
+}
+
+EpisodeKey parse_episode_id(const std::string& id) {
+  static const std::regex kPattern{"([^-]+)-([0-9]+\\.[0-9]{2})-(.+)-([0-9]{1,9})-([^-]+)"};
+  std::smatch parts;
+  if (!std::regex_match(id, parts, kPattern)) {
+    throw std::invalid_argument("\"" + id +
+                                "\" is not the name of an episode, as CL-0.40-intel-17-ours");
+  }
+  EpisodeKey key;
+  key.task = parts[1];
+  key.mpp = std::stod(parts[2]);
+  key.world = parts[3];
+  key.index = std::stoi(parts[4]);
+  key.method = parts[5];
+  return key;
 }
 
 bool operator<(const EpisodeKey& a, const EpisodeKey& b) { return order_of(a) < order_of(b); }

@@ -21,6 +21,7 @@
 
 #include "cmn_evaluate/evaluation.hpp"
 #include "cmn_evaluate/merge.hpp"
+#include "cmn_evaluate/replay.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
@@ -112,6 +113,8 @@ int run(int argc, char** argv) {
   add_option("out", po::value<std::string>()->required(), "folder of episodes.csv and the report");
   add_option("config", po::value<std::string>(), "folder of the presets");
   add_option("resume", po::bool_switch(), "go on with what lies in --out");
+  add_option("replay", po::value<std::vector<std::string>>()->multitoken()->composing(),
+             "run only these episodes again, as CL-0.40-intel-17-ours, and draw them");
   po::variables_map given;
   po::store(po::parse_command_line(argc, argv, options), given);
   if (given.count("help") != 0) {
@@ -144,6 +147,10 @@ int run(int argc, char** argv) {
       given.count("config") != 0 ? fs::path{given["config"].as<std::string>()} : find_config();
   plan.resume = given["resume"].as<bool>();
 
+  if (given.count("replay") != 0) {
+    cmn::replay(plan, split(given["replay"].as<std::vector<std::string>>()));
+    return EXIT_SUCCESS;
+  }
   cmn::ReportContext context;
   context.command = cmn::command_line(argc, argv);
   context.machine = cmn::machine_text();

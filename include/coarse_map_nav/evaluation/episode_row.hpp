@@ -26,6 +26,9 @@ struct EpisodeKey {
   /// "CL-0.40-intel-17-ours": as --replay takes it.
   std::string id() const;
 };
+/// The key of an id, its seed 0. Worlds may have dashes in their names. Throws
+/// std::invalid_argument when it is no id.
+EpisodeKey parse_episode_id(const std::string& id);
 /// Order of the report: task, mpp, world, index, method.
 bool operator<(const EpisodeKey& a, const EpisodeKey& b);
 bool operator==(const EpisodeKey& a, const EpisodeKey& b);

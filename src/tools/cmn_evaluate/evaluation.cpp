@@ -63,27 +63,28 @@ std::uint64_t mixed(std::uint64_t value) {  // SplitMix64 (Steele et al. 2014)
   return value ^ (value >> 31U);
 }
 
-/// The same for all methods, tasks and drawings: what differs between rows is the method.
-/// Worlds go by their names, so that a run may be split by worlds, too.
-std::uint64_t episode_seed(std::uint64_t seed, const std::string& world, int index) {
+}  // namespace
+
+std::string scene_name(const std::string& world) {
+  return std::filesystem::path{world}.stem().string();
+}
+
+std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index) {
   std::uint64_t value = mixed(seed);
-  for (const char letter : world) {
+  for (const char letter : scene) {
     value = mixed(value + static_cast<unsigned char>(letter));
   }
   return mixed(value + static_cast<std::uint64_t>(index));
 }
 
-std::unique_ptr<Scene> read_scene(const std::string& path, const JudgeParams& judge) {
+std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge) {
   try {
-    return std::make_unique<Scene>(std::filesystem::path{path}.stem().string(), read_map(path),
-                                   std::nullopt, judge);
+    return std::make_unique<Scene>(scene_name(world), read_map(world), std::nullopt, judge);
   } catch (const std::exception& e) {
     const std::string why = e.what();
-    throw std::runtime_error(why.find(path) == std::string::npos ? path + ": " + why : why);
+    throw std::runtime_error(why.find(world) == std::string::npos ? world + ": " + why : why);
   }
 }
-
-}  // namespace
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

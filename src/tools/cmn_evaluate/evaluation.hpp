@@ -41,6 +41,14 @@ struct Plan {
 /// Wall time since some moment [s].
 double seconds();
 
+/// What a world is called in episodes: the name of its file.
+std::string scene_name(const std::string& world);
+/// Throws std::runtime_error naming the file.
+std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge);
+/// The same for all methods, tasks and drawings: what differs between rows is the method. Worlds go
+/// by their names, so that a run may be split by worlds, too.
+std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index);
+
 class ProgressLine;
 
 /// Plays all episodes of a plan on `plan.jobs` threads: the same rows for any number of them.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,16 @@ TEST(EpisodeRow, SplWeighsSuccessByTheShortestWay) {
   // The goal counts from 0.4 m away, so the way may be shorter than the shortest one to its middle.
   EXPECT_DOUBLE_EQ(successful_episode(4.0, 3.7).spl(), 1.0);
   EXPECT_DOUBLE_EQ(failed_episode().spl(), 0.0);
+}
+
+TEST(EpisodeKey, IsWhatItsNameSays) {
+  for (const char* world : {"intel", "freiburg-079", "house:17", "a-1-b"}) {
+    const EpisodeKey key{"CL", world, 0.45, "true_pose", 170, 0};
+    EXPECT_EQ(parse_episode_id(key.id()), key) << key.id();
+  }
+  for (const char* id : {"", "CL-0.40-intel-17", "CL-0.40-intel-x-ours", "CL-intel-17-ours"}) {
+    EXPECT_THROW(parse_episode_id(id), std::invalid_argument) << id;
+  }
 }
 
 TEST(MergeEpisodes, GivesTheRunThatWasNotSplit) {
