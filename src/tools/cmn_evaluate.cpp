@@ -162,6 +162,8 @@ int run(int argc, char** argv) {
   cmn::EpisodeLog log{plan.out.string(), plan.resume};
   cmn::Evaluation evaluation{plan, log};
   context.horizon = evaluation.horizon();
+  context.is_interrupted = true;  // until the end, which a run that is killed never sees
+  cmn::write_context(context, (plan.out / "run.yaml").string());
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   evaluation.run([] { return interrupts != 0; });
