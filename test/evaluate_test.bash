@@ -56,6 +56,9 @@ for file in CL-0.40-home-1{,-cmn,-true_pose}.png CL-0.40-home-1-cmn.gif report.m
   [[ -s $out/whole/$file ]] || wrong "$file is absent"
 done
 
+"$program" --world house:3-4 --task CG,WL --method true_pose --episodes 1 --out "$out/houses" >/dev/null
+[[ $(grep -cE '^(CG|WL),house:[34],' "$out/houses/episodes.csv") == 4 ]] || wrong "$(rows houses)"
+
 refused() {  # EXPECTED ARGUMENT...: exit code 1 and a sentence with EXPECTED in it
   local expected=$1 status=0 answer
   shift
@@ -64,6 +67,8 @@ refused() {  # EXPECTED ARGUMENT...: exit code 1 and a sentence with EXPECTED in
 }
 home=(--world "$worlds/home.yaml" --out "$out/refused")
 refused "at least one --world" --out "$out/refused"
+refused "house:4-3 are no houses" --world house:4-3 --out "$out/refused"
+refused "house:x is no house" --world house:x --out "$out/refused"
 refused "nowhere.yaml" --world "$out/nowhere.yaml" --out "$out/refused"
 refused "another world is called home" "${home[@]}" --world "$worlds/home.yaml"
 refused 'method "magic" is none of ours, cmn' "${home[@]}" --method magic

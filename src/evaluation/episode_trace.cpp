@@ -167,11 +167,11 @@ void draw_trace_legend(Canvas& canvas, cv::Point2d at) {
   }
   name("collision");
   at = {left, at.y + 22.0};
-  const std::array<std::pair<cv::Scalar, const char*>, 3> kDots{
+  const std::array<std::pair<cv::Scalar, const char*>, 3> dots{
       {{kRight, "estimate, converged, right"},
        {kWrong, "converged, wrong"},
        {kUnsure, "not converged"}}};
-  for (const auto& [colour, text] : kDots) {
+  for (const auto& [colour, text] : dots) {
     canvas.disc(at, 4.0, colour);
     name(text);
   }

@@ -93,7 +93,7 @@ int run(int argc, char** argv) {
   auto add_option = options.add_options();
   add_option("help", "print this");
   add_option("world", po::value<std::vector<std::string>>()->multitoken()->composing(),
-             "metric worlds, map_server yaml");
+             "metric worlds: map_server yaml, generated homes as house:7 or house:1-50");
   add_option(
       "task",
       po::value<std::vector<std::string>>()->multitoken()->composing()->default_value({"CL"}, "CL"),
@@ -124,7 +124,7 @@ int run(int argc, char** argv) {
   po::notify(given);
   cmn::Plan plan;
   if (given.count("world") != 0) {
-    plan.worlds = given["world"].as<std::vector<std::string>>();
+    plan.worlds = cmn::expand_houses(split(given["world"].as<std::vector<std::string>>()));
   }
   if (plan.worlds.empty()) {
     throw std::runtime_error("give at least one --world");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation.hpp"
 
+#include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/evaluation/progress.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
 
@@ -63,10 +64,44 @@ std::uint64_t mixed(std::uint64_t value) {  // SplitMix64 (Steele et al. 2014)
   return value ^ (value >> 31U);
 }
 
+const std::string kHouse = "house:";
+constexpr std::uint32_t kMostHouses = 10000;
+
+bool is_house(const std::string& world) { return world.rfind(kHouse, 0) == 0; }
+
+std::uint32_t house_seed(const std::string& world) {
+  const std::string digits = world.substr(kHouse.size());
+  if (digits.empty() || digits.size() > 9 ||
+      digits.find_first_not_of("0123456789") != std::string::npos) {
+    throw std::runtime_error(world + " is no house: house:SEED or house:FIRST-LAST");
+  }
+  return static_cast<std::uint32_t>(std::stoul(digits));
+}
+
 }  // namespace
 
+std::vector<std::string> expand_houses(const std::vector<std::string>& worlds) {
+  std::vector<std::string> expanded;
+  for (const std::string& world : worlds) {
+    const std::size_t dash = world.find('-');
+    if (!is_house(world) || dash == std::string::npos) {
+      expanded.push_back(world);
+      continue;
+    }
+    const std::uint32_t first = house_seed(world.substr(0, dash));
+    const std::uint32_t last = house_seed(kHouse + world.substr(dash + 1));
+    if (first > last || last - first >= kMostHouses) {
+      throw std::runtime_error(world + " are no houses, or too many");
+    }
+    for (std::uint32_t seed = first; seed <= last; ++seed) {
+      expanded.push_back(kHouse + std::to_string(seed));
+    }
+  }
+  return expanded;
+}
+
 std::string scene_name(const std::string& world) {
-  return std::filesystem::path{world}.stem().string();
+  return is_house(world) ? world : std::filesystem::path{world}.stem().string();
 }
 
 std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index) {
@@ -78,7 +113,13 @@ std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int ind
 }
 
 std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge) {
+  constexpr double kHouseCell_m = 0.05;
   try {
+    if (is_house(world)) {
+      const House house = generate_house(house_seed(world));
+      return std::make_unique<Scene>(world, occupancy(house, kHouseCell_m),
+                                     walls(house, kHouseCell_m), judge);
+    }
     return std::make_unique<Scene>(scene_name(world), read_map(world), std::nullopt, judge);
   } catch (const std::exception& e) {
     const std::string why = e.what();

@@ -41,9 +41,11 @@ struct Plan {
 /// Wall time since some moment [s].
 double seconds();
 
-/// What a world is called in episodes: the name of its file.
+/// Worlds with house:FIRST-LAST written out. Throws std::runtime_error when it makes no sense.
+std::vector<std::string> expand_houses(const std::vector<std::string>& worlds);
+/// What a world is called in episodes: the name of its file, or house:SEED.
 std::string scene_name(const std::string& world);
-/// Throws std::runtime_error naming the file.
+/// Reads a map, or generates a house. Throws std::runtime_error naming the world.
 std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge);
 /// The same for all methods, tasks and drawings: what differs between rows is the method. Worlds go
 /// by their names, so that a run may be split by worlds, too.
