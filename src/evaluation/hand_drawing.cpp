@@ -170,10 +170,79 @@ void find_sources(const Drawing& drawing, const SmoothWarp& wobble, const Coarse
   cv::remap(lattice_y, from_y, at_x, at_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
 }
 
-}  // namespace
+/// What is wrong with a drawing.
+struct Faults {
+  SmoothWarp warp;
+  double mean = 1.0;   ///< mean stretch of the warp
+  double scale = 1.0;  ///< beside the warp
+  int quarter_turns = 0;
+  SmoothWarp wobble;
+};
 
-Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
+Faults draw_faults(std::mt19937_64& rng, const std::vector<Point2>& places,
                    const HandDrawingParams& params) {
+  constexpr double kSteepest = 0.94;
+  Faults faults;
+  const FittedWarp fitted =
+      fit(draw_warp(rng, 2.0 * params.stretch, params.stretch_length_m, params.bend),
+          params.stretch, places);
+  faults.warp = fitted.warp;
+  faults.mean = fitted.mean;
+  faults.scale = params.smallest_scale *
+                 std::pow(params.largest_scale / params.smallest_scale, draw_uniform(rng)) /
+                 fitted.mean;
+  const auto lot = static_cast<int>(draw_index(rng, 4));
+  faults.quarter_turns = params.turn ? lot : 0;
+  const double slope = std::min(kWobbleSlope, 2.0 * kPi * params.wobble_m / params.wobble_length_m);
+  faults.wobble = draw_warp(rng, std::min(2.0 * slope, kSteepest), params.wobble_length_m, 0.5);
+  return faults;
+}
+
+/// Where the drawing lies on its sheet.
+struct Sheet {
+  Point2 shift;
+  int width = 0;  ///< [cells]
+  int height = 0;
+};
+
+/// As large as the outermost free space and a margin around it.
+Sheet lay_sheet(const CoarseMap& world, const cv::Mat& free, double mpp, const Faults& faults,
+                double margin) {
+  const Drawing pen{CoarseMap{}, faults.warp, faults.scale, faults.quarter_turns, {}, 1.0};
+  cv::Mat inner;
+  cv::erode(free, inner, cv::Mat{});
+  std::vector<cv::Point> rim;
+  cv::findNonZero(free & ~inner, rim);
+  Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point2 high{-low.x, -low.y};
+  for (const cv::Point pixel : rim) {
+    const Point2 q = pen.world_to_map(world_point(world, pixel.x + 0.5, pixel.y + 0.5));
+    low = {std::min(low.x, q.x), std::min(low.y, q.y)};
+    high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+  }
+  return {{margin - low.x, margin - low.y},
+          static_cast<int>(std::ceil((high.x - low.x + 2.0 * margin) / mpp)),
+          static_cast<int>(std::ceil((high.y - low.y + 2.0 * margin) / mpp))};
+}
+
+/// The drawing in pixels of `mpp` / `per_cell`, with wobbly lines.
+Grid<std::uint8_t> trace(const CoarseMap& world, const cv::Mat& free, const Drawing& pen,
+                         const SmoothWarp& wobble, double pixel_m, cv::Size size) {
+  cv::Mat from_x;
+  cv::Mat from_y;
+  find_sources(pen, wobble, world, pixel_m, size, from_x, from_y);
+  cv::Mat drawn;
+  cv::remap(free, drawn, from_x, from_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar{0});
+  Grid<std::uint8_t> occupied{drawn.cols, drawn.rows};
+  for (int y = 0; y < drawn.rows; ++y) {
+    for (int x = 0; x < drawn.cols; ++x) {
+      occupied({x, y}) = drawn.at<std::uint8_t>(y, x) == 0 ? 1 : 0;
+    }
+  }
+  return occupied;
+}
+
+void check(const CoarseMap& world, double mpp, const HandDrawingParams& params) {
   if (!(mpp >= world.resolution()) || !std::isfinite(mpp)) {
     throw std::invalid_argument("a drawing cannot have finer cells than the world");
   }
@@ -183,6 +252,14 @@ Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
   if (!(params.dropped_share + params.moved_share <= 1.0)) {
     throw std::invalid_argument("dropped_share and moved_share are more than 1 together");
   }
+}
+
+}  // namespace
+
+Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
+                   const HandDrawingParams& params) {
+  constexpr std::size_t kPlaces = 4000;
+  check(world, mpp, params);
   std::mt19937_64 rng{seed};
   const double per_metre = 1.0 / world.resolution();
   cv::Mat free = walked(free_picture(world), params.walker_radius_m * per_metre,
@@ -195,59 +272,25 @@ Drawing hand_drawn(const CoarseMap& world, double mpp, std::uint32_t seed,
                              std::to_string(params.walker_radius_m) + " m: nothing to draw");
   }
   std::vector<Point2> places;
-  const std::size_t stride = std::max<std::size_t>(1, pixels.size() / 4000);
+  const std::size_t stride = std::max<std::size_t>(1, pixels.size() / kPlaces);
   for (std::size_t i = 0; i < pixels.size(); i += stride) {
     places.push_back(world_point(world, pixels[i].x + 0.5, pixels[i].y + 0.5));
   }
-
-  const SmoothWarp full =
-      draw_warp(rng, 2.0 * params.stretch, params.stretch_length_m, params.bend);
-  const FittedWarp fitted = fit(full, params.stretch, places);
-  const double mean = params.smallest_scale *
-                      std::pow(params.largest_scale / params.smallest_scale, draw_uniform(rng));
-  const double scale = mean / fitted.mean;
-  const auto lot = static_cast<int>(draw_index(rng, 4));
-  const int turns = params.turn ? lot : 0;
-  const double wobble_slope =
-      std::min(kWobbleSlope, 2.0 * kPi * params.wobble_m / params.wobble_length_m);
-  const SmoothWarp wobble = draw_warp(rng, 2.0 * wobble_slope < 0.95 ? 2.0 * wobble_slope : 0.94,
-                                      params.wobble_length_m, 0.5);
-
-  // Lay the sheet: the outermost free space, and a margin around it.
-  Drawing pen{CoarseMap{}, fitted.warp, scale, turns, {}, mean};
-  Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Point2 high{-low.x, -low.y};
-  cv::Mat inner;
-  cv::erode(free, inner, cv::Mat{});
-  cv::findNonZero(free & ~inner, pixels);
-  for (const cv::Point pixel : pixels) {
-    const Point2 q = pen.world_to_map(world_point(world, pixel.x + 0.5, pixel.y + 0.5));
-    low = {std::min(low.x, q.x), std::min(low.y, q.y)};
-    high = {std::max(high.x, q.x), std::max(high.y, q.y)};
-  }
-  const double margin = kMargin * mpp + scale * (params.wobble_m + world.resolution());
-  const Point2 shift{margin - low.x, margin - low.y};
-  const int width = static_cast<int>(std::ceil((high.x - low.x + 2.0 * margin) / mpp));
-  const int height = static_cast<int>(std::ceil((high.y - low.y + 2.0 * margin) / mpp));
-  pen = Drawing{CoarseMap{}, fitted.warp, scale, turns, shift, mean};
-
+  const Faults faults = draw_faults(rng, places, params);
+  const double mean_scale = faults.scale * faults.mean;
+  const double margin = kMargin * mpp + faults.scale * (params.wobble_m + world.resolution());
+  const Sheet sheet = lay_sheet(world, free, mpp, faults, margin);
   // Pixels so small that the thinnest wall, 3 of the world's cells, is never stepped over.
-  const double step = 2.0 * world.resolution() * scale * fitted.mean * (1.0 - params.stretch) /
-                      (1.0 + kWobbleSlope);
+  const double step =
+      2.0 * world.resolution() * mean_scale * (1.0 - params.stretch) / (1.0 + kWobbleSlope);
   const int per_cell = std::max(6, static_cast<int>(std::ceil(mpp / step)));
-  cv::Mat from_x;
-  cv::Mat from_y;
-  find_sources(pen, wobble, world, mpp / per_cell, {width * per_cell, height * per_cell}, from_x,
-               from_y);
-  cv::Mat drawn;
-  cv::remap(free, drawn, from_x, from_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar{0});
-  Grid<std::uint8_t> fine{drawn.cols, drawn.rows};
-  for (int y = 0; y < drawn.rows; ++y) {
-    for (int x = 0; x < drawn.cols; ++x) {
-      fine({x, y}) = drawn.at<std::uint8_t>(y, x) == 0 ? 1 : 0;
-    }
-  }
-  return Drawing{CoarseMap{coarsen(fine, per_cell), mpp}, fitted.warp, scale, turns, shift, mean};
+  const auto drawing = [&](CoarseMap map) {
+    return Drawing{std::move(map),       faults.warp, faults.scale,
+                   faults.quarter_turns, sheet.shift, mean_scale};
+  };
+  const Grid<std::uint8_t> fine = trace(world, free, drawing({}), faults.wobble, mpp / per_cell,
+                                        {sheet.width * per_cell, sheet.height * per_cell});
+  return drawing({coarsen(fine, per_cell), mpp});
 }
 
 }  // namespace cmn

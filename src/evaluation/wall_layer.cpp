@@ -14,9 +14,10 @@
 namespace cmn {
 namespace {
 
-/// Joins pieces of a straight wall over gaps up to `gap_px`, along rows and along columns: only
-/// strokes count that are at least half a gap long and a third of that thick.
-cv::Mat bridged(const cv::Mat& occupied, int gap_px) {
+/// Joins pieces of a straight wall over gaps up to `gap_px`, along rows and along columns. Only
+/// strokes count that are at least half a gap long and less than a third of that thick; a LiDAR may
+/// have seen them as dashes, `dash_px` apart.
+cv::Mat bridged(const cv::Mat& occupied, int gap_px, int dash_px) {
   cv::Mat joined = occupied.clone();
   const int stroke_px = std::max(3, gap_px / 2);
   for (const bool along_x : {true, false}) {
@@ -29,7 +30,8 @@ cv::Mat bridged(const cv::Mat& occupied, int gap_px) {
                                        along_x ? cv::Size{1, length} : cv::Size{length, 1});
     };
     cv::Mat strokes;
-    cv::morphologyEx(occupied, strokes, cv::MORPH_OPEN, line(stroke_px));
+    cv::morphologyEx(occupied, strokes, cv::MORPH_CLOSE, line(dash_px + 1));
+    cv::morphologyEx(strokes, strokes, cv::MORPH_OPEN, line(stroke_px));
     cv::Mat thick;
     cv::morphologyEx(strokes, thick, cv::MORPH_OPEN, across(std::max(3, stroke_px / 3 + 1)));
     strokes.setTo(0, thick);
@@ -48,7 +50,8 @@ CoarseMap without_furniture(const CoarseMap& world, const WallParams& params) {
   cv::Mat occupied;
   cv::copyMakeBorder(image_of(world.occupied()), occupied, 1, 1, 1, 1, cv::BORDER_CONSTANT,
                      cv::Scalar{255});
-  const cv::Mat joined = bridged(occupied, static_cast<int>(std::lround(params.gap_m / res)));
+  const auto pixels = [&](double metres) { return static_cast<int>(std::lround(metres / res)); };
+  const cv::Mat joined = bridged(occupied, pixels(params.gap_m), pixels(params.dash_m));
   cv::Mat island;
   cv::Mat stats;
   cv::Mat centroids;

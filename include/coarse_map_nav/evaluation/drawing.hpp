@@ -68,6 +68,7 @@ Drawing coarse_grid(const CoarseMap& world, double mpp, double clearance_m = 0.0
 struct WallParams {
   double longest_furniture_m = 2.5;
   double gap_m = 1.2;
+  double dash_m = 0.2;
 
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
@@ -75,6 +76,8 @@ struct WallParams {
           "[m] free-standing obstacles with no side longer are furniture");
     visit("gap_m", self.gap_m, Between{0.0, 10.0},
           "[m] pieces of wall in line with a long wall and no farther from it belong to it");
+    visit("dash_m", self.dash_m, Between{0.0, 1.0},
+          "[m] a straight wall may have holes up to this, where the LiDAR missed it");
   }
 };
 

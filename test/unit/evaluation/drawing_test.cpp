@@ -103,6 +103,20 @@ TEST(WithoutFurniture, KeepsAPieceOfWallBetweenTwoDoors) {
   EXPECT_FALSE(is_free_at(without_furniture(hall.world()), 5.03, 3.0));
 }
 
+TEST(WithoutFurniture, KeepsAThinWallThatTheLidarSawAsDashes) {
+  Hall hall{10.0, 6.0};
+  for (int i = 0; i < 15; ++i) {
+    hall.block(5.0, 0.3 + 0.3 * i, 5.05, 0.45 + 0.3 * i);
+  }
+  for (const double x : {2.0, 2.6, 3.2}) {  // the legs of a table
+    hall.block(x, 2.0, x + 0.05, 2.05);
+    hall.block(x, 2.8, x + 0.05, 2.85);
+  }
+  const CoarseMap plan = without_furniture(hall.world());
+  EXPECT_FALSE(is_free_at(plan, 5.03, 3.03));
+  EXPECT_TRUE(is_free_at(plan, 2.63, 2.03));
+}
+
 TEST(WithoutFurniture, OpensNothingThatIsClosed) {
   Hall hall{10.0, 6.0};
   hall.block(0.0, 0.0, 3.0, 6.0);  // unknown ground
