@@ -9,6 +9,7 @@
 #include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/evaluation/room_layout.hpp"
 
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -47,6 +48,23 @@ class Interior {
 
  private:
   static constexpr double kUsualClutter = 0.7;
+
+  /// A television and the sofa that faces it.
+  struct SofaGroup {
+    Side side = Side::kSouth;  ///< of the wall behind the television
+    Pose2 T_house_foot;        ///< at that wall, x into the room
+    double sofa_m = 2.0;
+    double stand_m = 1.5;
+    double distance_m = 2.5;  ///< from the wall to the front of the sofa
+  };
+  std::optional<SofaGroup> draw_sofa_group(double longest_sofa_m);
+  bool place(const SofaGroup& group);
+  void put_chairs(const Pose2& T_house_table, double depth, double length, int chairs_a_side,
+                  bool has_head_chairs);
+  /// Takes the longest wall that leaves the ways free; returns its length there, or 0.
+  double place_counter_run(double longest_m, double shortest_m, bool is_first);
+  void put_kitchen(const Pose2& T_house_run, double sign, int units, bool is_first,
+                   bool has_window);
 
   void put(Furniture piece) {
     piece.room = layout_.room();
