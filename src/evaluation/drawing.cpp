@@ -61,8 +61,9 @@ Drawing coarse_grid(const CoarseMap& world, double mpp, double clearance_m) {
   return Drawing{downsampled(narrowed, mpp)};
 }
 
-Drawing walls_only(const CoarseMap& world, double mpp, const WallParams& params) {
-  return coarse_grid(without_furniture(world, params), mpp);
+Drawing walls_only(const CoarseMap& world, double mpp, double clearance_m,
+                   const WallParams& params) {
+  return coarse_grid(without_furniture(world, params), mpp, clearance_m);
 }
 
 }  // namespace cmn

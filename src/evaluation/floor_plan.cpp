@@ -332,7 +332,9 @@ House draw_floor_plan(std::mt19937_64& rng, const HouseParams& params) {
       }
     }
   }
-  throw std::invalid_argument("no floor plan fits these parameters of a house");
+  throw std::invalid_argument(
+      "no floor plan fits these parameters of a house; more room between smallest_m2 and "
+      "largest_m2, or narrower doors, may help");
 }
 
 }  // namespace cmn

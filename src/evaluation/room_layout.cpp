@@ -14,10 +14,10 @@
 namespace cmn {
 namespace {
 
-constexpr double kDoorZone = 0.75;  ///< [m] kept free before a door
-constexpr double kReveal = 0.06;    ///< [m] how far a hole in a wall is felt in the room
-constexpr double kRaster = 0.1;     ///< [m] of the search for ways
-constexpr double kAir = 0.02;       ///< [m] between two pieces
+constexpr double kDoorZone = 0.9;  ///< [m] kept free before a door, which may swing there
+constexpr double kReveal = 0.06;   ///< [m] how far a hole in a wall is felt in the room
+constexpr double kRaster = 0.1;    ///< [m] of the search for ways
+constexpr double kAir = 0.02;      ///< [m] between two pieces
 
 bool is_upright(Side side) { return side == Side::kEast || side == Side::kWest; }
 

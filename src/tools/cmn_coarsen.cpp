@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
       "kind", po::value<std::string>()->default_value("grid"), "grid, walls or hand_drawn")(
       "mpp", po::value<double>()->default_value(0.4), "metres per pixel (cell) of the coarse map")(
       "clearance", po::value<double>()->default_value(0.0),
-      "of grid: ground counts as occupied this near to anything [m], as in CMN's maps")(
+      "of grid and walls: ground counts as occupied this near to anything [m], as in CMN's maps")(
       "seed", po::value<std::uint32_t>()->default_value(1), "which of all drawings")(
       "out", po::value<std::string>(), "the map to write, .yaml");
   po::variables_map given;
@@ -90,7 +90,8 @@ int run(int argc, char** argv) {
   const std::map<std::string, Draw> kinds{
       {"grid",
        [&](const cmn::CoarseMap& world) { return cmn::coarse_grid(world, mpp, clearance); }},
-      {"walls", [&](const cmn::CoarseMap& world) { return cmn::walls_only(world, mpp); }},
+      {"walls",
+       [&](const cmn::CoarseMap& world) { return cmn::walls_only(world, mpp, clearance); }},
       {"hand_drawn",
        [&](const cmn::CoarseMap& world) { return cmn::hand_drawn(world, mpp, seed); }}};
   const auto kind = kinds.find(given["kind"].as<std::string>());

@@ -86,7 +86,8 @@ struct WallParams {
 CoarseMap without_furniture(const CoarseMap& world, const WallParams& params = {});
 
 /// A floor plan: without_furniture(), as a coarse grid.
-Drawing walls_only(const CoarseMap& world, double mpp, const WallParams& params = {});
+Drawing walls_only(const CoarseMap& world, double mpp, double clearance_m = 0.0,
+                   const WallParams& params = {});
 
 /// How badly a person draws. Lengths count in the world.
 struct HandDrawingParams {
