@@ -18,6 +18,9 @@ constexpr double kAlignError_rad = 0.003;
 
 constexpr double kPiece_m = 0.01;
 
+/// A robot that slides is blocked when it gets less than this share of its way ahead.
+constexpr double kSlidAlong = 0.5;
+
 }  // namespace
 
 StepDrive::StepDrive(const World& world, const RobotParams& params, const Pose2& T_world_start,
@@ -71,7 +74,8 @@ MotionOutcome StepDrive::forward(double distance_m) {
   T_odom_robot_.x += counted.x;
   T_odom_robot_.y += counted.y;
   hold_heading(yaw(nearest_heading(T_odom_robot_.yaw)));
-  return has_collided && !params_.sliding ? MotionOutcome::kBlocked : MotionOutcome::kSucceeded;
+  const bool is_blocked = has_collided && !(params_.sliding && share >= kSlidAlong);
+  return is_blocked ? MotionOutcome::kBlocked : MotionOutcome::kSucceeded;
 }
 
 void StepDrive::turn(int quarter_turns) {
