@@ -21,7 +21,6 @@ namespace {
 
 constexpr double kDrivableCell_m = 0.1;
 constexpr int kCropCells = 3;
-constexpr double kCropCell_m = 1.28 / kCropCells;
 
 CoarseMap drivable_map(const World& world, const CoarseMap& extent, double radius_m) {
   const int width = static_cast<int>(extent.width() * extent.resolution() / kDrivableCell_m);
@@ -49,9 +48,10 @@ CoarseMap metric(const CoarseMap& drawing, double scale, double cell_m) {
   return {std::move(occupied), true_cell_m / cuts, T_map_grid};
 }
 
-/// CMN's "grid observation": the crop of the map about the robot, in its axes.
-LocalOccupancy true_crop(const CoarseMap& map, const Pose2& T_map_robot) {
-  LocalOccupancy crop{kCropCells, kCropCell_m};
+/// CMN's "grid observation": the crop of the map about the robot, in its axes. `scale`: metres of
+/// the map a metre in the world.
+LocalOccupancy true_crop(const CoarseMap& map, double scale, const Pose2& T_map_robot) {
+  LocalOccupancy crop{kCropCells, map.resolution() / scale};
   const Cell home = map.cell_of(T_map_robot.position());
   const int quarters = nearest_quarter(T_map_robot.yaw - map.T_map_grid().yaw);
   for (int iy = 0; iy < kCropCells; ++iy) {
@@ -215,6 +215,13 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   RangeSensor lidar{simulation.lidar, seed()};
 
   const GivenMap given = given_map(scene, drawing, method, params.planning.step_m);
+  MeasurementModelParams& measurement = params.localization.measurement;
+  if (method.has_metric_map) {
+    measurement.window_m = measurement.window_cells() * given.map.resolution();
+  } else if (task.observation == ObservationKind::kTrueCrop &&
+             measurement.window_cells() == kCropCells) {
+    measurement.window_m = kCropCells * drawing.map().resolution() / drawing.scale();
+  }
   const Pose2 goal = given.from_world({route.goal_world.x, route.goal_world.y, 0.0});
   std::unique_ptr<Localizer> owned = localizer_for(method, task, given.map, params.localization,
                                                    given.from_world(route.T_world_start));
@@ -238,11 +245,12 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       told->place(T_map_true);
     }
     const double before_s = clock_s();
-    Decision decision =
-        task.observation == ObservationKind::kTrueCrop
-            ? navigator.step(scan, true_crop(drawing.map(), drawing.world_to_map(robot.truth())),
-                             robot.T_odom_robot(), last_outcome)
-            : navigator.step(scan, robot.T_odom_robot(), last_outcome);
+    Decision decision = task.observation == ObservationKind::kTrueCrop
+                            ? navigator.step(scan,
+                                             true_crop(drawing.map(), drawing.scale(),
+                                                       drawing.world_to_map(robot.truth())),
+                                             robot.T_odom_robot(), last_outcome)
+                            : navigator.step(scan, robot.T_odom_robot(), last_outcome);
     thinking_s += clock_s() - before_s;
     ++steps;
     const Localization at = navigator.localizer().localization();

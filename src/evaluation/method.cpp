@@ -69,6 +69,9 @@ NavigatorParams method_params(const Method& method, const Task& task,
     params.planning.policy = "belief";
     params.planning.goal_tolerance_m = 0.2;
   }
+  if (task.has_paper_setting) {
+    params.perception.guard.occupied_share = 1.0;
+  }
   const bool is_in_paper_setting = task.has_paper_setting && method.name != "oracle";
   if (method.has_shared_planner && !is_in_paper_setting) {
     params.planning.policy = "lattice";

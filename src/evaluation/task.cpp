@@ -34,7 +34,7 @@ const Task& find_task(const std::string& name) {
 }
 
 Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, double mpp,
-             std::uint32_t seed) {
+             std::uint32_t seed, double radius_m) {
   switch (task.drawing) {
     case DrawingKind::kHandDrawn:
       return hand_drawn(world, mpp, seed);
@@ -43,7 +43,7 @@ Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, d
     case DrawingKind::kCoarseGrid:
       break;
   }
-  return coarse_grid(world, mpp);
+  return coarse_grid(world, mpp, task.has_paper_setting ? radius_m : 0.0);
 }
 
 }  // namespace cmn

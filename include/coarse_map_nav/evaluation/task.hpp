@@ -23,15 +23,18 @@ struct Task {
   std::string name;
   DrawingKind drawing = DrawingKind::kCoarseGrid;
   ObservationKind observation = ObservationKind::kLidar;
-  bool knows_heading = false;      ///< at the start
-  bool has_paper_setting = false;  ///< sliding along walls, each method's own planner
+  bool knows_heading = false;  ///< at the start
+  /// Of CMN in Habitat: the map is of where the robot's middle can be, the robot slides along walls
+  /// and has no obstacle guard, and each method has its own planner.
+  bool has_paper_setting = false;
 };
 
 /// Throws std::invalid_argument naming the known tasks.
 const Task& find_task(const std::string& name);
 
 /// The map of a task. `walls` are those of a generated house, null where nobody labelled them.
+/// `radius_m`: of the robot.
 Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, double mpp,
-             std::uint32_t seed);
+             std::uint32_t seed, double radius_m);
 
 }  // namespace cmn

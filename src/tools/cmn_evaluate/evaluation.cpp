@@ -229,7 +229,7 @@ void Evaluation::play(const Job& job, ProgressLine& progress) {
     }
     if (!drawing) {
       drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
-                     static_cast<std::uint32_t>(key.seed));
+                     static_cast<std::uint32_t>(key.seed), plan_.judge.simulation.robot.radius_m);
       route = sample_route(scene, *drawing, plan_.judge, key.seed);
     }
     if (!route) {

@@ -77,8 +77,9 @@ void write_picture(const fs::path& path, const cv::Mat& picture) {
 Recording run_again(const Plan& plan, const Scene& scene, const EpisodeKey& key) {
   const Task& task = find_task(key.task);
   const Method& method = find_method(key.method);
-  const Drawing drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
-                               static_cast<std::uint32_t>(key.seed));
+  const Drawing drawing =
+      draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
+           static_cast<std::uint32_t>(key.seed), plan.judge.simulation.robot.radius_m);
   const auto route = sample_route(scene, drawing, plan.judge, key.seed);
   if (!route) {
     throw std::runtime_error(key.id() + ": no start and goal are far enough apart");
