@@ -83,7 +83,7 @@ double bar_length_m(const MapView& view) {
 
 void draw_scale_bar(Canvas& canvas, const MapView& view, double y) {
   const double length_m = bar_length_m(view);
-  const double right = view.area.br().x;
+  const double right = kMargin + kMapWidth;  // clear of the legend, however narrow the map
   const double left = right - length_m * view.scale();
   canvas.polyline({{left, y - 4.0}, {left, y}, {right, y}, {right, y - 4.0}}, kMapColours.ink, 1.5);
   canvas.text(text_of("%g m", length_m), {left - 8.0, y}, kLetter, kMapColours.ink, Align::kRight);
