@@ -31,10 +31,20 @@ class Draughtsman {
   std::optional<House> draw(double area_m2);
 
  private:
-  bool draw_flat(const Programme& programme);
-  bool draw_spine(Programme programme);
-  bool lay_row(const Group& row, double x0, double x1, double y0, double y1,
-               const std::vector<int>& halls);
+  bool lay_flat(const Programme& programme);
+  /// A hall with a row of rooms on one or both sides.
+  struct Spine {
+    bool has_block = false;  ///< the living room lies across its western end
+    double hall = 1.2;       ///< [m] breadth
+    std::optional<Slot> end_bath;
+    std::vector<Group> rows;  ///< from the south
+    std::vector<double> depths;
+    double length = 0.0;
+  };
+  Spine draw_spine(const Programme& programme);
+  void share_out(const std::vector<Group>& groups, Spine& spine);
+  bool lay_spine(const Programme& programme);
+  bool lay_row(const Group& row, double x0, double x1, double y0, double y1, int hall);
   bool lay_living(const Programme& programme, const Rectangle& area, double hall_y0,
                   double hall_y1);
   int add_room(RoomPurpose purpose, const Rectangle& area);
@@ -85,8 +95,7 @@ bool Draughtsman::lay_living(const Programme& programme, const Rectangle& area, 
 }
 
 /// Rooms side by side along the hall, each with its door.
-bool Draughtsman::lay_row(const Group& row, double x0, double x1, double y0, double y1,
-                          const std::vector<int>& halls) {
+bool Draughtsman::lay_row(const Group& row, double x0, double x1, double y0, double y1, int hall) {
   const double depth = y1 - y0;
   double walls = 0.0;
   for (std::size_t i = 0; i + 1 < row.size(); ++i) {
@@ -111,12 +120,12 @@ bool Draughtsman::lay_row(const Group& row, double x0, double x1, double y0, dou
       if (slot.is_behind_previous) {
         is_joined = add_door(room, previous);
       } else if (slot.is_entrance) {
-        is_joined = add_passage(room, halls.front(), end - x, end - x);
+        is_joined = add_passage(room, hall, end - x, end - x);
       }
-      for (std::size_t h = 0; !is_joined && h < halls.size(); ++h) {
+      if (!is_joined) {
         is_joined = slot.purpose == RoomPurpose::kLiving && draw_chance(rng_, 0.6)
-                        ? add_passage(room, halls[h], 1.0, 1.6)
-                        : add_door(room, halls[h]);
+                        ? add_passage(room, hall, 1.0, 1.6)
+                        : add_door(room, hall);
       }
       if (!is_joined) {
         return false;
@@ -132,113 +141,113 @@ bool Draughtsman::lay_row(const Group& row, double x0, double x1, double y0, dou
   return true;
 }
 
-/// Rooms on both sides of a hall, or on one.
-bool Draughtsman::draw_spine(Programme programme) {
-  const bool has_block = draw_chance(rng_, 0.65);
-  const bool is_two_sided = programme.area_m2 > 70.0 || !has_block;
-  const bool has_end_bath = is_two_sided && draw_chance(rng_, 0.35);
-  const bool has_vestibule = (has_end_bath && has_block) || draw_chance(rng_, 0.4);
-  const double hall = has_end_bath ? draw_snapped(rng_, 1.75, 2.1) : draw_snapped(rng_, 1.1, 1.5);
+/// Shares the rooms out between the two sides of the hall so that both become about as long.
+void Draughtsman::share_out(const std::vector<Group>& groups, Spine& spine) {
+  const auto length_of = [&](std::size_t row) {
+    return area_of(spine.rows[row]) / spine.depths[row];
+  };
+  for (const Group& group : groups) {
+    Group& row = spine.rows[spine.rows.size() == 2 && length_of(1) < length_of(0) ? 1 : 0];
+    const bool at_front = draw_chance(rng_, 0.5);
+    row.insert(at_front ? row.begin() : row.end(), group.begin(), group.end());
+  }
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < spine.rows.size(); ++i) {
+    lengths.push_back(length_of(i) + inner_ * (static_cast<double>(spine.rows[i].size()) - 1.0));
+    spine.length += lengths.back() / static_cast<double>(spine.rows.size());
+  }
+  if (lengths.size() == 2 && std::abs(lengths[0] - lengths[1]) > 1.5 && draw_chance(rng_, 0.8)) {
+    // An L: the shorter row leaves a notch at the far end of the outline.
+    const std::size_t shorter = lengths[0] < lengths[1] ? 0 : 1;
+    spine.length = std::max(lengths[0], lengths[1]);
+    Slot notch;
+    notch.is_outside = true;
+    notch.area_m2 = (spine.length - lengths[shorter]) * spine.depths[shorter];
+    spine.rows[shorter].push_back(notch);
+  }
+  spine.length = snapped(spine.length);
+}
 
-  // Share the groups out so that both rows become about as long.
+Draughtsman::Spine Draughtsman::draw_spine(const Programme& programme) {
+  Spine spine;
+  spine.has_block = draw_chance(rng_, 0.65);
+  const bool is_two_sided = programme.area_m2 > 70.0 || !spine.has_block;
+  const bool has_end_bath = is_two_sided && draw_chance(rng_, 0.35);
+  const bool has_vestibule = (has_end_bath && spine.has_block) || draw_chance(rng_, 0.4);
+  spine.hall = has_end_bath ? draw_snapped(rng_, 1.75, 2.1) : draw_snapped(rng_, 1.1, 1.5);
   std::vector<Group> groups = programme.groups;
-  Slot bath;
   if (has_end_bath) {
-    const auto found = std::find_if(groups.begin(), groups.end(), [](const Group& group) {
+    const auto bath = std::find_if(groups.begin(), groups.end(), [](const Group& group) {
       return group.front().purpose == RoomPurpose::kBath;
     });
-    bath = found->front();
-    groups.erase(found);
+    spine.end_bath = bath->front();
+    groups.erase(bath);
   }
-  if (!has_block) {
-    Slot living = programme.living;
-    living.is_open_to_next = programme.has_open_kitchen;
-    groups.insert(groups.begin(), Group{living, programme.kitchen});
-    if (draw_chance(rng_, 0.5)) {
-      std::swap(groups.front()[0], groups.front()[1]);
-      groups.front()[0].is_open_to_next = programme.has_open_kitchen;
-      groups.front()[1].is_open_to_next = false;
-    }
+  if (!spine.has_block) {
+    const bool is_living_first = !draw_chance(rng_, 0.5);
+    Group day{is_living_first ? programme.living : programme.kitchen,
+              is_living_first ? programme.kitchen : programme.living};
+    day.front().is_open_to_next = programme.has_open_kitchen;
+    groups.insert(groups.begin(), day);
   }
   if (has_vestibule) {
     Slot entrance{RoomPurpose::kHall, draw_between(rng_, 4.5, 6.0)};
     entrance.is_entrance = true;
     groups.push_back({entrance});
   }
-  std::vector<Group> rows(is_two_sided ? 2 : 1);
-  std::vector<double> depths;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    depths.push_back(
-        draw_snapped(rng_, i == 0 && !has_block ? 3.7 : 3.0, i == 0 && !has_block ? 4.6 : 4.1));
+  spine.rows.resize(is_two_sided ? 2 : 1);
+  for (std::size_t i = 0; i < spine.rows.size(); ++i) {
+    const bool has_living = i == 0 && !spine.has_block;
+    spine.depths.push_back(draw_snapped(rng_, has_living ? 3.7 : 3.0, has_living ? 4.6 : 4.1));
   }
-  for (const Group& group : groups) {
-    const std::size_t shorter =
-        rows.size() == 2 && area_of(rows[1]) / depths[1] < area_of(rows[0]) / depths[0] ? 1 : 0;
-    const bool at_front = draw_chance(rng_, 0.5);
-    rows[shorter].insert(at_front ? rows[shorter].begin() : rows[shorter].end(), group.begin(),
-                         group.end());
-  }
-  double length = 0.0;
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    lengths.push_back(area_of(rows[i]) / depths[i] +
-                      inner_ * (static_cast<double>(rows[i].size()) - 1.0));
-    length += lengths.back() / static_cast<double>(rows.size());
-  }
-  if (is_two_sided && std::abs(lengths[0] - lengths[1]) > 1.5 && draw_chance(rng_, 0.8)) {
-    // An L: the shorter row leaves a notch at the far end of the outline.
-    const std::size_t shorter = lengths[0] < lengths[1] ? 0 : 1;
-    length = std::max(lengths[0], lengths[1]);
-    Slot notch;
-    notch.is_outside = true;
-    notch.area_m2 = (length - lengths[shorter]) * depths[shorter];
-    rows[shorter].push_back(notch);
-  }
-  length = snapped(length);
+  share_out(groups, spine);
+  return spine;
+}
 
-  const double south = is_two_sided ? depths[0] + inner_ : 0.0;
-  const double north = depths.back() + inner_;
-  const double height = south + hall + north;
+/// Rooms on both sides of a hall, or on one.
+bool Draughtsman::lay_spine(const Programme& programme) {
+  const Spine spine = draw_spine(programme);
+  const bool is_two_sided = spine.rows.size() == 2;
+  const double south = is_two_sided ? spine.depths[0] + inner_ : 0.0;
+  const double north = spine.depths.back() + inner_;
+  const double height = south + spine.hall + north;
   const double hall_y0 = outer_ + south;
-  const double block =
-      has_block ? snapped((programme.living.area_m2 + programme.kitchen.area_m2) / height) : 0.0;
-  const double x0 = outer_ + (has_block ? block + inner_ : 0.0);
-  const double end_bath = has_end_bath ? snapped(bath.area_m2 / hall) : 0.0;
-  const double x1 = x0 + length;
+  const double hall_y1 = hall_y0 + spine.hall;
+  const double block = snapped((programme.living.area_m2 + programme.kitchen.area_m2) / height);
+  const double x0 = outer_ + (spine.has_block ? block + inner_ : 0.0);
+  const double x1 = x0 + spine.length;
   house_.outline = {0.0, 0.0, x1 + outer_, height + 2.0 * outer_};
-  const Rectangle corridor{x0, hall_y0, x1 - (has_end_bath ? end_bath + inner_ : 0.0),
-                           hall_y0 + hall};
-  if (corridor.width() < 2.0) {
-    return false;
-  }
-  const int hall_room = add_room(RoomPurpose::kHall, corridor);
-  if (has_end_bath) {
-    if (!is_sound(bath, end_bath, hall)) {
-      return false;
-    }
-    const int room =
-        add_room(RoomPurpose::kBath, {corridor.x1 + inner_, hall_y0, x1, hall_y0 + hall});
-    if (!add_door(room, hall_room)) {
+  double hall_x1 = x1;
+  if (spine.end_bath) {
+    const double width = snapped(spine.end_bath->area_m2 / spine.hall);
+    hall_x1 -= width + inner_;
+    if (!is_sound(*spine.end_bath, width, spine.hall)) {
       return false;
     }
   }
-  if (is_two_sided && !lay_row(rows[0], x0, x1, outer_, outer_ + depths[0], {hall_room})) {
+  if (hall_x1 - x0 < 2.0) {
     return false;
   }
-  if (!lay_row(rows.back(), x0, x1, hall_y0 + hall + inner_, hall_y0 + hall + north, {hall_room})) {
+  const int hall = add_room(RoomPurpose::kHall, {x0, hall_y0, hall_x1, hall_y1});
+  if (spine.end_bath &&
+      !add_door(add_room(RoomPurpose::kBath, {hall_x1 + inner_, hall_y0, x1, hall_y1}), hall)) {
     return false;
   }
-  if (has_block) {
+  if ((is_two_sided && !lay_row(spine.rows[0], x0, x1, outer_, outer_ + spine.depths[0], hall)) ||
+      !lay_row(spine.rows.back(), x0, x1, hall_y1 + inner_, hall_y0 + spine.hall + north, hall)) {
+    return false;
+  }
+  if (spine.has_block) {
     const auto living = static_cast<int>(house_.rooms.size());
     if (!lay_living(programme, {outer_, outer_, outer_ + block, outer_ + height}, hall_y0,
-                    hall_y0 + hall) ||
+                    hall_y1) ||
         !(draw_chance(rng_, 0.6)
-              ? add_passage(living, hall_room, 0.95, 1.2)
-              : cmn::add_door(house_, rng_, living, hall_room, params_.widest_door_m))) {
+              ? add_passage(living, hall, 0.95, 1.2)
+              : cmn::add_door(house_, rng_, living, hall, params_.widest_door_m))) {
       return false;
     }
   }
-  int entrance_hall = hall_room;
+  int entrance_hall = hall;
   for (std::size_t r = 0; r < house_.rooms.size(); ++r) {
     if (house_.rooms[r].purpose == RoomPurpose::kHall) {
       entrance_hall = static_cast<int>(r);  // the vestibule comes after the corridor
@@ -248,7 +257,7 @@ bool Draughtsman::draw_spine(Programme programme) {
 }
 
 /// A small flat: living room and kitchen on one side; hall, bath and bedroom on the other.
-bool Draughtsman::draw_flat(const Programme& programme) {
+bool Draughtsman::lay_flat(const Programme& programme) {
   const double height = draw_snapped(rng_, 5.4, 6.8);
   const double left = snapped((programme.living.area_m2 + programme.kitchen.area_m2) / height);
   const double right = draw_snapped(rng_, 3.1, 4.0);
@@ -277,7 +286,7 @@ std::optional<House> Draughtsman::draw(double area_m2) {
   const Programme programme = draw_programme(rng_, area_m2);
   const bool is_flat =
       programme.area_m2 < 52.0 || (programme.area_m2 < 62.0 && draw_chance(rng_, 0.5));
-  if (!(is_flat ? draw_flat(programme) : draw_spine(programme))) {
+  if (!(is_flat ? lay_flat(programme) : lay_spine(programme))) {
     return std::nullopt;
   }
   // About as large as meant, so that all sizes are equally frequent.

@@ -82,29 +82,30 @@ std::optional<Interior::SofaGroup> Interior::draw_sofa_group(double longest_sofa
 }
 
 bool Interior::place(const SofaGroup& group) {
-  const Pose2& T = group.T_house_foot;
-  const Rectangle stand = covered(T, centred(0.0, kStandDepth, group.stand_m));
+  const Pose2& T_house_foot = group.T_house_foot;
+  const Rectangle stand = covered(T_house_foot, centred(0.0, kStandDepth, group.stand_m));
   const double viewer = kStandDepth + 0.5 * params_.way_m + 0.06;
   RoomLayout trial = layout_;
   if (trial.has_window(stand) || !trial.has_wall(group.side, stand) ||
-      !trial.place(stand, {covered(T, centred(kStandDepth, 0.6, group.stand_m))},
-                   {T * Point2{viewer, 0.0}}) ||
-      !trial.place(covered(T, centred(group.distance_m, kSofaDepth, group.sofa_m)),
-                   {covered(T, centred(group.distance_m - 0.35, 0.35, group.sofa_m - 0.3))})) {
+      !trial.place(stand, {covered(T_house_foot, centred(kStandDepth, 0.6, group.stand_m))},
+                   {T_house_foot * Point2{viewer, 0.0}}) ||
+      !trial.place(
+          covered(T_house_foot, centred(group.distance_m, kSofaDepth, group.sofa_m)),
+          {covered(T_house_foot, centred(group.distance_m - 0.35, 0.35, group.sofa_m - 0.3))})) {
     return false;
   }
   layout_ = trial;
-  const Pose2 T_house_stand = T * Pose2{0.5 * kStandDepth, 0.0, 0.0};
+  const Pose2 T_house_stand = T_house_foot * Pose2{0.5 * kStandDepth, 0.0, 0.0};
   put(block("TV stand", T_house_stand, kStandDepth, group.stand_m, 0.45));
   put(block("TV", T_house_stand, 0.08, 0.8 * group.stand_m, 0.6, 0.5));
-  put(sofa("sofa", T * Pose2{group.distance_m + 0.5 * kSofaDepth, 0.0, kPi}, kSofaDepth,
+  put(sofa("sofa", T_house_foot * Pose2{group.distance_m + 0.5 * kSofaDepth, 0.0, kPi}, kSofaDepth,
            group.sofa_m));
   if (group.distance_m > 2.3) {
     const double depth = 0.55;
     const double width = std::min(1.1, 0.55 * group.sofa_m);
     const double from = group.distance_m - 0.38 - depth;
-    if (layout_.place(covered(T, centred(from, depth, width)), {})) {
-      put(coffee_table(T * Pose2{from + 0.5 * depth, 0.0, 0.0}, depth, width));
+    if (layout_.place(covered(T_house_foot, centred(from, depth, width)), {})) {
+      put(coffee_table(T_house_foot * Pose2{from + 0.5 * depth, 0.0, 0.0}, depth, width));
     }
   }
   // Armchairs beside the low table, turned towards it and a little to the television.
@@ -115,7 +116,7 @@ bool Interior::place(const SofaGroup& group) {
     const double askew = 0.2 + 0.3 * draw_uniform(rng_);
     const Pose2 at{group.distance_m - 0.6, sign * (0.5 * group.sofa_m + 0.5),
                    -sign * (0.5 * kPi + askew)};
-    const Furniture armchair = sofa("armchair", T * at, 0.72, 0.74);
+    const Furniture armchair = sofa("armchair", T_house_foot * at, 0.72, 0.74);
     if (layout_.place(armchair.footprint(), {})) {
       put(armchair);
     }
@@ -144,18 +145,19 @@ bool Interior::place_dining_set(int chairs_a_side, bool has_head_chairs) {
       continue;
     }
     const double rim = is_wish ? 0.2 : 0.0;
-    const Pose2 T{room.x0 - size.x0 + play_x * draw_between(rng_, rim, 1.0 - rim),
-                  room.y0 - size.y0 + play_y * draw_between(rng_, rim, 1.0 - rim), yaw};
+    const Pose2 T_house_table{room.x0 - size.x0 + play_x * draw_between(rng_, rim, 1.0 - rim),
+                              room.y0 - size.y0 + play_y * draw_between(rng_, rim, 1.0 - rim), yaw};
     const double beside = 0.5 * (across + params_.way_m) + 0.06;
-    std::vector<Point2> sides{T * Point2{beside, 0.0}, T * Point2{-beside, 0.0}};
+    std::vector<Point2> sides{T_house_table * Point2{beside, 0.0},
+                              T_house_table * Point2{-beside, 0.0}};
     if (is_last) {
       sides.erase(draw_uniform(rng_) < 0.5 ? sides.begin() : sides.begin() + 1);
     }
-    const Rectangle area = covered(T, whole);
+    const Rectangle area = covered(T_house_table, whole);
     if (layout_.is_vacant(common(area.grown(is_wish ? 0.35 : 0.1), room)) &&
         layout_.place(area, {}, sides)) {
-      put(table("table", T, depth, length));
-      put_chairs(T, depth, length, chairs_a_side, has_head_chairs);
+      put(table("table", T_house_table, depth, length));
+      put_chairs(T_house_table, depth, length, chairs_a_side, has_head_chairs);
       return true;
     }
   }
@@ -261,20 +263,20 @@ double Interior::place_counter_run(double longest_m, double shortest_m, bool is_
     const bool from_low = is_low_corner || draw_uniform(rng_) < 0.3;
     const bool y_is_low_to_high = stretch.side == Side::kWest || stretch.side == Side::kNorth;
     const double sign = from_low == y_is_low_to_high ? 1.0 : -1.0;
-    const Pose2 T =
+    const Pose2 T_house_run =
         stretch.pose * Pose2{-0.5 * kCounterDepth, -sign * 0.5 * length_of(stretch), 0.0};
     const double middle = sign * 0.5 * length;
     const auto strip = [&](double from, double depth) {
-      return covered(T * Pose2{0.0, middle, 0.0}, centred(from, depth, length));
+      return covered(T_house_run * Pose2{0.0, middle, 0.0}, centred(from, depth, length));
     };
     const Rectangle area = strip(0.0, kCounterDepth);
     std::vector<Rectangle> front;
     if (is_first) {
       front.push_back(strip(kCounterDepth, 0.55));
     }
-    const Point2 cook = T * Point2{kCounterDepth + 0.5 * params_.way_m + 0.06, middle};
+    const Point2 cook = T_house_run * Point2{kCounterDepth + 0.5 * params_.way_m + 0.06, middle};
     if (layout_.place(area, front, {cook})) {
-      put_kitchen(T, sign, static_cast<int>(std::lround(length / kUnit)), is_first,
+      put_kitchen(T_house_run, sign, static_cast<int>(std::lround(length / kUnit)), is_first,
                   layout_.has_window(area));
       return length;
     }
