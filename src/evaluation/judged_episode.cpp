@@ -263,7 +263,10 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     if (decision.state == NavigationState::kReached) {
       the_judge.hear_reached(robot);
     }
-    row.end = decision.state == NavigationState::kReached ? "reached" : "failed";
+    const bool is_at_horizon = row.actions >= params.planning.max_actions;
+    row.end = decision.state == NavigationState::kReached ? "reached"
+              : is_at_horizon                             ? "horizon"
+                                                          : "failed";
     if (is_an_end(decision.state)) {
       if (!method.ends_by_judge) {
         break;
@@ -271,8 +274,8 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       navigator.planner().set_goal(goal.position());
       decision.action = any_action(rng, params.planning.step_m);
     }
-    row.end = "horizon";
-    if (row.actions >= params.planning.max_actions || (method.ends_by_judge && row.is_success)) {
+    if (is_at_horizon || (method.ends_by_judge && row.is_success)) {
+      row.end = row.is_success ? "success" : "horizon";
       break;
     }
     last_outcome = robot.carry_out(decision.action);

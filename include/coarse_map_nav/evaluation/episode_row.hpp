@@ -55,7 +55,7 @@ struct EpisodeRow {
   int collisions = 0;
   double closest_m = kNever;  ///< to the goal, ever
   double step_ms = 0.0;       ///< mean wall time of see + believe + plan; not reproducible
-  std::string end;            ///< reached, failed, horizon
+  std::string end;            ///< reached, failed, horizon, success (the judge's), goal refused
 
   /// S * l / max(l, p) (Anderson et al. 2018, "On Evaluation of Embodied Navigation Agents").
   double spl() const;

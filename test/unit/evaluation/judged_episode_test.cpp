@@ -1,0 +1,238 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/evaluation/judged_episode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ascii_map.hpp"
+#include <gtest/gtest.h>
+
+namespace cmn {
+namespace {
+
+const std::string kConfig = CMN_SOURCE_DIR "/config";
+
+double no_clock() { return 0.0; }
+
+/// Pixels of 0.1 m for each character of 1 m.
+CoarseMap building(const std::vector<std::string>& lines) {
+  std::vector<std::string> fine;
+  for (const std::string& line : lines) {
+    std::string row;
+    for (const char c : line) {
+      row += std::string(10, c);
+    }
+    fine.insert(fine.end(), 10, row);
+  }
+  return ascii_map(fine, 0.1);
+}
+
+/// A corridor of 10 m x 1 m.
+Scene corridor(const JudgeParams& judge = {}) {
+  return {"corridor", building({"############", "#..........#", "############"}), std::nullopt,
+          judge};
+}
+
+Scene flat(const JudgeParams& judge = {}) {
+  return {"flat",
+          building(
+              {"##########", "#...#....#", "#........#", "#...##.###", "#........#", "##########"}),
+          std::nullopt, judge};
+}
+
+/// All that an episode needs, with defaults.
+struct Setting {
+  std::string task = "CL";
+  std::string method = "oracle";
+  JudgeParams judge;
+  std::uint64_t seed = 5;
+  std::optional<int> max_actions;
+};
+
+EpisodeRow run(const Scene& scene, const Route& route, const Setting& setting,
+               const EpisodeRecorder& recorder = {}) {
+  const Task& task = find_task(setting.task);
+  const Method& method = find_method(setting.method);
+  NavigatorParams params = method_params(method, task, kConfig);
+  params.planning.max_actions = setting.max_actions.value_or(params.planning.max_actions);
+  const Drawing drawing = draw(task, scene.map, nullptr, 0.5, 1, 0.18);
+  return run_judged_episode(scene, task, drawing, route, method, params, setting.judge,
+                            {setting.task, scene.name, 0.5, setting.method, 0, setting.seed},
+                            no_clock, recorder);
+}
+
+/// 5 m along the corridor.
+Route along(double yaw_rad) { return {{2.05, 1.55, yaw_rad}, {7.05, 1.55}, 5.0}; }
+
+TEST(JudgedEpisode, OfAStraightWayHasTheSplByHand) {
+  const Scene scene = corridor();
+  const EpisodeRow row = run(scene, along(0.0), {});
+  EXPECT_TRUE(row.is_success);
+  // 4.6 m are 31 steps of 0.15 m; slip may make it one more or less.
+  EXPECT_NEAR(row.success_actions, 31, 1);
+  EXPECT_NEAR(row.success_driven_m, 4.65, 0.2);
+  EXPECT_EQ(row.spl(), 1.0);  // it need not come all the way: 5 / max(5, 4.65)
+  EXPECT_EQ(row.collisions, 0);
+  EXPECT_GE(row.actions, row.success_actions);
+  EXPECT_EQ(row.T_world_start.x, 2.05);
+  EXPECT_EQ(row.goal_world.x, 7.05);
+  EXPECT_EQ(row.shortest_m, 5.0);
+}
+
+TEST(JudgedEpisode, TurnsCountAsActionsButNotAsWay) {
+  const EpisodeRow row = run(corridor(), along(kPi), {});
+  EXPECT_TRUE(row.is_success);
+  EXPECT_NEAR(row.success_actions, 33, 1);
+  EXPECT_NEAR(row.success_driven_m, 4.65, 0.2);
+}
+
+TEST(JudgedEpisode, ADetourCostsItsShareOfSpl) {
+  // The same ride against a way that is said to be 2 m.
+  Route route = along(0.0);
+  route.shortest_m = 2.0;
+  const EpisodeRow row = run(corridor(), route, {});
+  EXPECT_TRUE(row.is_success);
+  EXPECT_DOUBLE_EQ(row.spl(), 2.0 / row.success_driven_m);
+}
+
+TEST(JudgedEpisode, SuccessComesWithTheFirstPlaceWithinTheRadiusAndNoEarlier) {
+  for (const std::string method : {"oracle", "true_pose", "cmn", "robb", "rnd"}) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      SCOPED_TRACE(method + " seed " + std::to_string(seed));
+      Setting setting;
+      setting.method = method;
+      setting.seed = seed;
+      setting.max_actions = 80;
+      std::vector<Pose2> places;
+      const Route route = along(0.0);
+      const EpisodeRow row = run(corridor(), route, setting, [&](const EpisodeMoment& moment) {
+        places.push_back(moment.T_world_robot);
+      });
+      const auto within = std::find_if(places.begin(), places.end(), [&](const Pose2& place) {
+        return norm(place.position() - route.goal_world) < 0.4;
+      });
+      ASSERT_EQ(row.is_success, within != places.end());
+      if (row.is_success) {
+        EXPECT_EQ(row.success_actions, within - places.begin());
+      }
+      double closest_m = 100.0;
+      for (const Pose2& place : places) {
+        closest_m = std::min(closest_m, norm(place.position() - route.goal_world));
+      }
+      EXPECT_DOUBLE_EQ(row.closest_m, closest_m);
+      EXPECT_EQ(row.actions + 1, static_cast<int>(places.size()));
+      EXPECT_LE(row.actions, 80);
+    }
+  }
+}
+
+TEST(JudgedEpisode, ADeclaredArrivalIsRightWithinItsRadius) {
+  Setting setting;
+  setting.method = "true_pose";
+  EpisodeRow row = run(corridor(), along(0.0), setting);
+  EXPECT_EQ(row.end, "reached");
+  EXPECT_TRUE(row.is_declared);
+  EXPECT_TRUE(row.is_declared_right);
+  setting.judge.declared_radius_m = 0.0;
+  row = run(corridor(), along(0.0), setting);
+  EXPECT_TRUE(row.is_declared);
+  EXPECT_FALSE(row.is_declared_right);
+}
+
+TEST(JudgedEpisode, EndsWithTheJudgesSuccessWhereTheMethodLeavesThatToHim) {
+  Setting setting;
+  setting.task = "CG";
+  setting.method = "cmn";
+  for (setting.seed = 0; setting.seed < 5; ++setting.seed) {
+    const EpisodeRow row = run(flat(), {{1.55, 1.55, 0.0}, {6.55, 1.55}, 5.0}, setting);
+    EXPECT_EQ(row.end, row.is_success ? "success" : "horizon");
+    EXPECT_EQ(row.actions, row.is_success ? row.success_actions : 500);
+  }
+}
+
+TEST(JudgedEpisode, EndsAtTheHorizon) {
+  for (const std::string method : {"ours", "rnd", "robb", "mcse"}) {
+    Setting setting;
+    setting.method = method;
+    setting.max_actions = 7;
+    const EpisodeRow row = run(corridor(), along(kPi), setting);
+    EXPECT_EQ(row.end, "horizon") << method;
+    EXPECT_EQ(row.actions, 7);
+    EXPECT_FALSE(row.is_success);
+    EXPECT_EQ(row.spl(), 0.0);
+  }
+}
+
+TEST(JudgedEpisode, TheBoundsArriveInAFlat) {
+  const JudgeParams judge;
+  const Scene scene = flat(judge);
+  const Task& task = find_task("CL");
+  const Drawing drawing = draw(task, scene.map, nullptr, 0.5, 1, 0.18);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto route = sample_route(scene, drawing, judge, seed);
+    ASSERT_TRUE(route);
+    Setting setting;
+    for (const std::string method : {"oracle", "true_pose"}) {
+      setting.method = method;
+      const EpisodeRow row = run(scene, *route, setting);
+      EXPECT_TRUE(row.is_success) << method;
+      EXPECT_GT(row.spl(), 0.6) << method;
+    }
+  }
+}
+
+TEST(JudgedEpisode, TheSameSeedGivesTheSameRowForEveryMethod) {
+  const Scene scene = flat();
+  for (const std::string& method : method_names()) {
+    for (const std::string task : {"CG", "CL", "HL"}) {
+      Setting setting;
+      setting.task = task;
+      setting.method = method;
+      setting.max_actions = 15;
+      const Route route{{1.55, 1.55, 0.0}, {6.55, 1.55}, 5.0};
+      EXPECT_EQ(csv_line(run(scene, route, setting)), csv_line(run(scene, route, setting)))
+          << method << " " << task;
+    }
+  }
+}
+
+TEST(JudgedEpisode, TheTruthThatARecorderSeesLiesOnTheMapOfTheMethod) {
+  const Scene scene = flat();
+  for (const std::string method : {"cmn", "rmn", "oracle"}) {
+    Setting setting;
+    setting.method = method;
+    setting.max_actions = 30;
+    int free = 0;
+    int all = 0;
+    run(scene, {{1.55, 1.55, 0.0}, {6.55, 1.55}, 5.0}, setting, [&](const EpisodeMoment& moment) {
+      // To scale, and in the frame of the world: a coarse grid.
+      EXPECT_NEAR(norm(moment.T_map_true.position() - moment.T_world_robot.position()), 0.0, 1e-6);
+      free += moment.map.is_free(moment.map.cell_of(moment.T_map_true.position()));
+      ++all;
+    });
+    EXPECT_GT(free, 0.8 * all) << method;
+  }
+}
+
+TEST(SampleRoute, ItsGoalIsFreeOnTheDrawing) {
+  const JudgeParams judge;
+  const Scene scene = flat(judge);
+  for (const char* name : {"CG", "CL", "HL"}) {
+    const Drawing drawing = draw(find_task(name), scene.map, nullptr, 0.5, 3, 0.18);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const auto route = sample_route(scene, drawing, judge, seed);
+      ASSERT_TRUE(route);
+      const CoarseMap& map = drawing.map();
+      EXPECT_TRUE(map.is_free(map.cell_of(drawing.world_to_map(route->goal_world))));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cmn
