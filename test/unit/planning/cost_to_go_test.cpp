@@ -73,5 +73,24 @@ TEST(CostToGo, NextHeadingTurnsLeastAndLeftFirst) {
   EXPECT_FALSE(cost.next_heading({2, 2}, Heading::kEast));
 }
 
+TEST(CostToGo, BetweenCellsItIsBilinear) {
+  const CostToGo cost{ascii_map({"....", "...."}), {0, 0}};
+  EXPECT_DOUBLE_EQ(cost.between_cells({2.5, 0.5}), 2.0);  // the middle of a cell
+  EXPECT_DOUBLE_EQ(cost.between_cells({2.0, 0.5}), 1.5);  // half way to its neighbour
+  EXPECT_DOUBLE_EQ(cost.between_cells({1.75, 0.75}), 1.25 + 0.25);
+  EXPECT_DOUBLE_EQ(cost.between_cells({3.9, 0.5}), 3.0);  // what lies outside does not count
+}
+
+TEST(CostToGo, BetweenCellsWallsDoNotCount) {
+  const CostToGo cost{ascii_map({"#...", ".#..", "...."}), {0, 0}};
+  // Cells (0, 1) and (1, 0) beside (1, 1), which is occupied, and (0, 0).
+  EXPECT_DOUBLE_EQ(cost.between_cells({0.75, 0.75}),
+                   (0.5625 * 0.0 + 0.1875 * 1.0 + 0.1875 * 1.0) / (1.0 - 0.0625));
+  EXPECT_TRUE(std::isinf(cost.between_cells({1.5, 1.5})));
+  EXPECT_TRUE(std::isinf(cost.between_cells({0.5, 2.5})));
+  EXPECT_TRUE(std::isinf(cost.between_cells({-0.1, 0.5})));
+  EXPECT_TRUE(std::isinf(cost.between_cells({4.1, 0.5})));
+}
+
 }  // namespace
 }  // namespace cmn
