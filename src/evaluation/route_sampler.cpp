@@ -20,7 +20,7 @@ namespace {
 constexpr double kCell_m = 0.1;
 constexpr std::int32_t kStraight = 1000;  // tenths of a millimetre
 constexpr std::int32_t kDiagonal = 1414;
-constexpr double kUnits_per_m = 10000.0;
+constexpr double kUnitsPerMetre = 10000.0;
 constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
 constexpr int kStarts = 200;  ///< tried before giving up
 
@@ -82,7 +82,7 @@ Grid<std::int32_t> RouteSampler::ways_from(Cell from, double most_m) const {
                                         {{-1, 1}, kDiagonal},
                                         {{-1, -1}, kDiagonal},
                                         {{1, -1}, kDiagonal}}};
-  const auto most = static_cast<std::int32_t>(most_m * kUnits_per_m);
+  const auto most = static_cast<std::int32_t>(most_m * kUnitsPerMetre);
   Grid<std::int32_t> ways{is_drivable_.width(), is_drivable_.height(), kFar};
   // Dial's queue: one bucket a length; lengths in the queue differ by a diagonal at most.
   std::vector<std::vector<Cell>> buckets(kDiagonal + 1);
@@ -122,7 +122,7 @@ std::optional<Route> RouteSampler::sample(double least_m, double most_m,
     const Grid<std::int32_t> ways = ways_from(start, most_m);
     std::vector<Cell> goals;
     for (const Cell c : cells_) {
-      if (ways(c) != kFar && ways(c) >= least_m * kUnits_per_m && may_be_goal(to_world(c))) {
+      if (ways(c) != kFar && ways(c) >= least_m * kUnitsPerMetre && may_be_goal(to_world(c))) {
         goals.push_back(c);
       }
     }
@@ -134,7 +134,7 @@ std::optional<Route> RouteSampler::sample(double least_m, double most_m,
     const auto quarter = static_cast<int>(draw_index(rng, 4));
     return Route{{p.x, p.y, wrap_angle(T_world_grid_.yaw + quarter * kPi / 2.0)},
                  to_world(goal),
-                 ways(goal) / kUnits_per_m};
+                 ways(goal) / kUnitsPerMetre};
   }
   return std::nullopt;
 }

@@ -20,8 +20,8 @@ namespace cmn {
 /// errors against the full simulation.
 ///
 /// As on the robot a turn ends on the next axis of the odometry (Robb), a step forward runs along
-/// the heading and ends short at an obstacle: a collision, kBlocked. With RobotParams::sliding it goes
-/// on along the obstacle and is blocked only where that takes it less than half the way ahead.
+/// the heading and ends short at an obstacle: a collision, kBlocked. With RobotParams::sliding it
+/// goes on along the obstacle and is blocked only where that takes it less than half the way ahead.
 class StepDrive {
  public:
   /// The odometry frame is the start pose. Throws std::invalid_argument inside an obstacle.
