@@ -106,7 +106,8 @@ class PlannerNode {
     }
     const cmn::Decision decision = planner_->decide(
         {received->belief, received->estimate, cmn::middle_of(received->estimate.cell),
-         cmn::yaw(received->estimate.heading), static_cast<double>(msg.confidence), msg.converged != 0},
+         cmn::yaw(received->estimate.heading), static_cast<double>(msg.confidence),
+         msg.converged != 0},
         guard_.was_blocked(msg.header.stamp.toSec()));
     const auto path = planner_->path_from(received->estimate.cell);
     path_pub_.publish(cmn::message_of(path, *map_, msg.header));

@@ -171,9 +171,13 @@ Belief certain(const CoarseMap& map, Heading heading, Cell cell) {
 
 Decision decide(Planner& planner, const CoarseMap& map, const GridRobot& robot, bool is_converged) {
   const Belief belief = certain(map, robot.heading, robot.cell);
-  return planner.decide(
-      {belief, {robot.heading, robot.cell, 1.0}, middle_of(robot.cell), yaw(robot.heading), 1.0, is_converged},
-      robot.is_blocked());
+  return planner.decide({belief,
+                         {robot.heading, robot.cell, 1.0},
+                         middle_of(robot.cell),
+                         yaw(robot.heading),
+                         1.0,
+                         is_converged},
+                        robot.is_blocked());
 }
 
 const std::vector<std::pair<std::string, bool>>& planners() {

@@ -26,7 +26,8 @@ class PlannerTest : public testing::Test {
  protected:
   Decision decide_at(Heading heading, Cell cell, bool is_blocked_ahead = false) {
     const Estimate estimate{heading, cell, 1.0};
-    return planner_.decide({certain(map_, estimate), estimate, middle_of(estimate.cell), yaw(estimate.heading), 1.0, true},
+    return planner_.decide({certain(map_, estimate), estimate, middle_of(estimate.cell),
+                            yaw(estimate.heading), 1.0, true},
                            is_blocked_ahead);
   }
   CoarseMap map_ = ascii_map(
@@ -158,12 +159,24 @@ TEST_F(PlannerTest, DoesNotTrustAnUnsureEstimateAtTheGoal) {
   ASSERT_FALSE(planner_.set_goal({2.25, 2.75}));
   const Estimate estimate{Heading::kEast, {4, 5}, 0.3};
   const Belief belief = certain(map_, estimate);
-  EXPECT_EQ(planner_.decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.49, true}, false).state,
-            NavigationState::kNavigating);
-  EXPECT_EQ(planner_.decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.9, false}, false).state,
-            NavigationState::kLocalizing);
-  EXPECT_EQ(planner_.decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.5, true}, false).state,
-            NavigationState::kReached);
+  EXPECT_EQ(
+      planner_
+          .decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.49, true},
+                  false)
+          .state,
+      NavigationState::kNavigating);
+  EXPECT_EQ(
+      planner_
+          .decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.9, false},
+                  false)
+          .state,
+      NavigationState::kLocalizing);
+  EXPECT_EQ(
+      planner_
+          .decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.5, true},
+                  false)
+          .state,
+      NavigationState::kReached);
 }
 
 TEST_F(PlannerTest, GivesUpAfterMaxActions) {
@@ -195,8 +208,8 @@ TEST_F(PlannerTest, ExploresFromAnEstimateWithNoWayWhileItMayBeElsewhere) {
   belief.set_weight(Heading::kEast, {1, 1}, 0.9);
   belief.set_weight(Heading::kEast, {1, 5}, 0.1);
   ASSERT_TRUE(belief.normalise());
-  const Decision decision =
-      planner_.decide({belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.9, true}, false);
+  const Decision decision = planner_.decide(
+      {belief, estimate, middle_of(estimate.cell), yaw(estimate.heading), 0.9, true}, false);
   EXPECT_EQ(decision.state, NavigationState::kLocalizing);
   EXPECT_TRUE(std::isnan(decision.distance_to_go_m));
   EXPECT_THAT(decision.text,
@@ -215,7 +228,8 @@ TEST_F(PlannerTest, TheSameSeedDecidesTheSame) {
   ASSERT_FALSE(planner_.set_goal({2.25, 2.75}));
   ASSERT_FALSE(other.set_goal({2.25, 2.75}));
   const Belief belief = Belief::uniform(map_);
-  const Localization flat{belief, Estimate{Heading::kEast, {4, 5}, 0.02}, {4.5, 5.5}, 0.0, 0.07, false};
+  const Localization flat{belief, Estimate{Heading::kEast, {4, 5}, 0.02}, {4.5, 5.5}, 0.0, 0.07,
+                          false};
   for (int i = 0; i < 100; ++i) {
     ASSERT_EQ(planner_.decide(flat, i % 3 == 0).action.type,
               other.decide(flat, i % 3 == 0).action.type);
