@@ -50,6 +50,27 @@ printf 'CL,home,0.4,cm' >>"$out/resumed/episodes.csv"
 run --out "$out/resumed" --resume >/dev/null
 same_as_whole resumed
 
+# Ctrl-C: what is under way is ended and kept.
+run --out "$out/interrupted" >/dev/null 2>"$out/interrupted.txt" &
+pid=$!
+for _ in $(seq 200); do
+  [[ -s $out/interrupted/episodes.csv && $(wc -l <"$out/interrupted/episodes.csv") -ge 2 ]] && break
+  sleep 0.05
+done
+kill -INT "$pid"
+status=0
+wait "$pid" || status=$?
+done_before=$(($(rows interrupted | wc -l) - 1))
+# The run may have come to its end before the signal.
+if [[ $status == 0 ]]; then
+  [[ $done_before == 8 ]] || wrong "an interrupted run of $done_before episodes ended with 0"
+else
+  [[ $status == 130 && $done_before -ge 1 && $(cat "$out/interrupted.txt") == *--resume* ]] ||
+    wrong "interrupted: exit $status, $done_before episodes, $(cat "$out/interrupted.txt")"
+fi
+run --out "$out/interrupted" --resume >/dev/null
+same_as_whole interrupted
+
 run --out "$out/whole" --replay CL-0.40-home-1-cmn CL-0.40-home-1-true_pose >"$out/replay.txt"
 [[ $(grep -c '^the same as in episodes.csv$' "$out/replay.txt") == 2 ]] || wrong "$(cat "$out/replay.txt")"
 for file in CL-0.40-home-1{,-cmn,-true_pose}.png CL-0.40-home-1-cmn.gif report.md run.yaml success_CL.svg; do
@@ -74,10 +95,39 @@ refused "another world is called home" "${home[@]}" --world "$worlds/home.yaml"
 refused 'method "magic" is none of ours, cmn' "${home[@]}" --method magic
 refused 'task "XX" is none of CG' "${home[@]}" --task XX
 refused "--mpp fine is not" "${home[@]}" --mpp fine
+refused "--mpp 0 is not" "${home[@]}" --mpp 0
+refused "--mpp -0.4 is not" "${home[@]}" --mpp -0.4
+refused "--mpp nan is not" "${home[@]}" --mpp nan
+refused "--mpp 0.01 is finer than" "${home[@]}" --mpp 0.01,0.4
+refused "no start and goal lie 3 m to 20 m apart" "${home[@]}" --mpp 20
+refused "--mpp names nothing" "${home[@]}" --mpp ""
+refused "--method names cmn twice" "${home[@]}" --method cmn,robb,cmn
+refused "--episodes 0 is not 1 or more" "${home[@]}" --episodes 0
+refused "'x'" "${home[@]}" --episodes x
+refused "--jobs -2 is not 1 or more" "${home[@]}" --jobs -2
+refused "--seed is not 0 or more" "${home[@]}" --seed -1
+refused "/nowhere" "${home[@]}" --config /nowhere
 refused "--shard is i/n" "${home[@]}" --shard 2/2
 refused "--resume" --world "$worlds/home.yaml" --out "$out/whole"
 refused "another --seed" --world "$worlds/home.yaml" --method cmn --episodes 3 --seed 2 --out "$out/whole" --resume
 refused "/proc/refused" --world "$worlds/home.yaml" --out /proc/refused
+printf 'P5\n60 60\n255\n' >"$out/full.pgm"
+head -c 3600 /dev/zero >>"$out/full.pgm"
+printf 'image: full.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n' \
+  >"$out/full.yaml"
+refused "full.yaml: has no free cell" --world "$out/full.yaml" --out "$out/refused"
+# A slit of 0.1 m.
+{
+  printf 'P5\n60 60\n255\n'
+  head -c 1800 /dev/zero
+  head -c 120 /dev/zero | tr '\0' '\377'
+  head -c 1680 /dev/zero
+} >"$out/slit.pgm"
+sed 's/full/slit/' "$out/full.yaml" >"$out/slit.yaml"
+refused "slit.yaml: the world has no free space for a robot of radius 0.18 m" \
+  --world "$out/slit.yaml" --out "$out/refused"
+touch "$out/file"
+refused "$out/file" --world "$worlds/home.yaml" --out "$out/file"
 refused "is not the name of an episode" "${home[@]}" --replay 17
 refused "needs a --world that is called intel" "${home[@]}" --replay CL-0.40-intel-1-cmn
 refused "absent/episodes.csv" merge "$out/shard0" "$out/absent" --out "$out/refused"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include <opencv2/core.hpp>
@@ -48,8 +49,9 @@ RouteSampler::RouteSampler(const World& world, const CoarseMap& extent, double r
     }
   }
   if (largest == 0) {
-    throw std::runtime_error("the world has no free space for a robot of radius " +
-                             std::to_string(radius_m) + " m");
+    std::ostringstream text;
+    text << "the world has no free space for a robot of radius " << radius_m << " m";
+    throw std::runtime_error(text.str());
   }
   for (std::size_t i = 0; i < is_drivable_.size(); ++i) {
     const Cell c = is_drivable_.cell_at(i);

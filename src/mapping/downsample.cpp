@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -33,9 +34,10 @@ void share_out(int count, double ratio, Add&& add) {
 CoarseMap downsampled(const CoarseMap& world, double resolution) {
   const double ratio = resolution / world.resolution();
   if (!std::isfinite(ratio) || ratio < 1.0 - kRounding) {
-    throw std::invalid_argument("a map of " + std::to_string(world.resolution()) +
-                                " m/cell cannot be made coarser to " + std::to_string(resolution) +
-                                " m/cell");
+    std::ostringstream text;
+    text << "a map of " << world.resolution() << " m/cell cannot be made coarser to " << resolution
+         << " m/cell";
+    throw std::invalid_argument(text.str());
   }
   const int width = static_cast<int>(std::ceil(world.width() / ratio - kRounding));
   const int height = static_cast<int>(std::ceil(world.height() / ratio - kRounding));

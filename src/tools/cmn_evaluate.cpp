@@ -4,7 +4,6 @@
 /// cmn_evaluate: every method on every building, judged; the tables by which this package is
 /// judged.
 
-#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -54,6 +54,30 @@ std::vector<std::string> split(const std::vector<std::string>& texts) {
     }
   }
   return parts;
+}
+
+/// What stands after an option, several with commas. Throws std::runtime_error when that is nothing
+/// or something twice.
+std::vector<std::string> list_of(const po::variables_map& given, const std::string& option) {
+  const std::vector<std::string> parts = split(given[option].as<std::vector<std::string>>());
+  std::set<std::string> known;
+  for (const std::string& part : parts) {
+    if (!known.insert(part).second) {
+      throw std::runtime_error("--" + option + " names " + part + " twice");
+    }
+  }
+  if (parts.empty()) {
+    throw std::runtime_error("--" + option + " names nothing");
+  }
+  return parts;
+}
+
+int positive(const po::variables_map& given, const std::string& option) {
+  const int value = given[option].as<int>();
+  if (value < 1) {
+    throw std::runtime_error("--" + option + " " + std::to_string(value) + " is not 1 or more");
+  }
+  return value;
 }
 
 /// The presets: beside the installed program, or in the source tree that it was built from.
@@ -107,7 +131,7 @@ int run(int argc, char** argv) {
                  {"ours"}, "ours"),
              "several with commas");
   add_option("episodes", po::value<int>()->default_value(50), "in each world");
-  add_option("seed", po::value<std::uint64_t>()->default_value(1), "of starts, goals and noise");
+  add_option("seed", po::value<std::int64_t>()->default_value(1), "of starts, goals and noise");
   add_option("jobs", po::value<int>()->default_value(1), "threads; the result is the same for any");
   add_option("shard", po::value<std::string>()->default_value("0/1"), "i/n: every n-th episode");
   add_option("out", po::value<std::string>()->required(), "folder of episodes.csv and the report");
@@ -129,14 +153,17 @@ int run(int argc, char** argv) {
   if (plan.worlds.empty()) {
     throw std::runtime_error("give at least one --world");
   }
-  plan.tasks = split(given["task"].as<std::vector<std::string>>());
-  plan.methods = split(given["method"].as<std::vector<std::string>>());
-  for (const std::string& mpp : split(given["mpp"].as<std::vector<std::string>>())) {
+  plan.tasks = list_of(given, "task");
+  plan.methods = list_of(given, "method");
+  for (const std::string& mpp : list_of(given, "mpp")) {
     plan.mpps.push_back(resolution_of(mpp));
   }
-  plan.episodes = given["episodes"].as<int>();
-  plan.seed = given["seed"].as<std::uint64_t>();
-  plan.jobs = std::max(1, given["jobs"].as<int>());
+  plan.episodes = positive(given, "episodes");
+  plan.jobs = positive(given, "jobs");
+  if (given["seed"].as<std::int64_t>() < 0) {
+    throw std::runtime_error("--seed is not 0 or more");
+  }
+  plan.seed = static_cast<std::uint64_t>(given["seed"].as<std::int64_t>());
   if (std::sscanf(given["shard"].as<std::string>().c_str(), "%d/%d", &plan.shard, &plan.shards) !=
           2 ||
       plan.shards < 1 || plan.shard < 0 || plan.shard >= plan.shards) {

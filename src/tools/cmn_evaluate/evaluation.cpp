@@ -10,6 +10,7 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -144,6 +145,14 @@ Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{lo
     if (!names.insert(scenes_.back()->name).second) {
       throw std::runtime_error(world + ": another world is called " + scenes_.back()->name);
     }
+    const double cell_m = scenes_.back()->map.resolution();
+    const double finest = *std::min_element(plan.mpps.begin(), plan.mpps.end());
+    if (finest < cell_m) {
+      std::ostringstream text;
+      text << "--mpp " << finest << " is finer than " << world << ", which has cells of " << cell_m
+           << " m";
+      throw std::runtime_error(text.str());
+    }
   }
   for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
     for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
@@ -233,9 +242,11 @@ void Evaluation::play(const Job& job, ProgressLine& progress) {
       route = sample_route(scene, *drawing, plan_.judge, key.seed);
     }
     if (!route) {
-      throw std::runtime_error(key.world + ": no start and goal lie " +
-                               std::to_string(plan_.judge.least_way_m) + " m to " +
-                               std::to_string(plan_.judge.most_way_m) + " m apart");
+      std::ostringstream text;
+      text << key.world << ": no start and goal lie " << plan_.judge.least_way_m << " m to "
+           << plan_.judge.most_way_m << " m apart with the goal on free ground of the map at "
+           << key.mpp << " m/cell";
+      throw std::runtime_error(text.str());
     }
     const EpisodeRow row =
         run_judged_episode(scene, task, *drawing, *route, find_method(name),
