@@ -16,8 +16,11 @@ std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const Localizati
   if (params.filter == "particle") {
     return std::make_unique<ParticleFilter>(map, params);
   }
+  if (params.filter == "scaled") {
+    return std::make_unique<ScaleFilter>(map, params.scaled, params.converged_confidence);
+  }
   throw std::invalid_argument("localization filter \"" + params.filter +
-                              "\" is none of discrete, particle");
+                              "\" is none of discrete, particle, scaled");
 }
 
 }  // namespace cmn

@@ -44,8 +44,9 @@ void BeliefPolicy::look(const Situation& situation) {
   lattice_.search(*situation.local_map, !situation.is_stuck);
   if (repair_.enabled && situation.confidence >= repair_.confidence) {
     const double yaw_rad = situation.yaw_rad;
-    is_stale_ |= map_->fuse(*situation.local_map, lattice_.clearance(),
-                            lattice_.least_clearance_m(), situation.position_cells, yaw_rad);
+    is_stale_ |=
+        map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
+                   situation.position_cells, yaw_rad, situation.scale);
     if (situation.is_stuck) {
       const double ahead =
           (lattice_.step_m() + lattice_.least_clearance_m()) / situation.map.resolution();
@@ -102,7 +103,7 @@ std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& 
 
 std::size_t BeliefPolicy::best_state(const Situation& situation,
                                      const std::vector<Hypothesis>& at) const {
-  const double part_m = situation.map.resolution() / map_->cuts();
+  const double part_m = situation.map.resolution() / map_->cuts() / situation.scale;
   const double parts_per_m = 1.0 / part_m;
   std::vector<Point2> origins;
   std::vector<Point2> axes;  // of a metre ahead
@@ -147,7 +148,7 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
 
 bool BeliefPolicy::close_gap(const Situation& situation) {
   // Down the cost-to-go from here: the first part where no state of the lattice lies.
-  const double parts_per_m = map_->cuts() / situation.map.resolution();
+  const double parts_per_m = situation.scale * map_->cuts() / situation.map.resolution();
   const double yaw_rad = situation.yaw_rad;
   const Point2 origin = static_cast<double>(map_->cuts()) * situation.position_cells;
   const double near = std::max(0.75, 0.75 * lattice_.step_m() * parts_per_m);
@@ -212,7 +213,7 @@ ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng
 
 std::optional<double> BeliefPolicy::distance_to_go_m(const Situation& situation) {
   return cost_to_go_.between(static_cast<double>(map_->cuts()) * situation.position_cells) *
-         situation.map.resolution() / map_->cuts();
+         situation.map.resolution() / map_->cuts() / situation.scale;
 }
 
 }  // namespace cmn

@@ -162,6 +162,8 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
                             localization.is_converged,
                             is_blocked_ahead || is_stuck_,
                             is_stuck_,
+                            localization.scale,
+                            localization.axes_yaw_rad,
                             local_map};
   policy_->look(situation);
   const std::optional<double> own_m = policy_->distance_to_go_m(situation);
@@ -197,6 +199,7 @@ Decision Planner::act(const Situation& situation, double distance_m) {
   if (decision.action.type == ActionType::kMoveForward) {
     decision.action.distance_m = params_.step_m;
   }
+  decision.action.axes_yaw_rad = situation.axes_yaw_rad;
   last_action_ = decision.action.type;
   ++actions_;
 

@@ -41,15 +41,15 @@ void StepDrive::set_truth(const Pose2& T_world_robot) {
 
 MotionOutcome StepDrive::carry_out(const Action& action) {
   if (action.type == ActionType::kMoveForward) {
-    return forward(action.distance_m);
+    return forward(action.distance_m, action.axes_yaw_rad);
   }
   if (action.type != ActionType::kStop) {
-    turn(quarter_turns(action.type));
+    hold_axis(quarter_turns(action.type), action.axes_yaw_rad);
   }
   return MotionOutcome::kSucceeded;
 }
 
-MotionOutcome StepDrive::forward(double distance_m) {
+MotionOutcome StepDrive::forward(double distance_m, double axes_yaw_rad) {
   const double counted_m = distance_m + kStopError_m * draw_normal(rng_);
   const double true_m =
       std::max(0.0, counted_m * (1.0 + travel_bias_) +
@@ -73,18 +73,16 @@ MotionOutcome StepDrive::forward(double distance_m) {
   const Point2 counted = turned(Point2{share * counted_m, 0.0}, T_odom_robot_.yaw);
   T_odom_robot_.x += counted.x;
   T_odom_robot_.y += counted.y;
-  hold_heading(yaw(nearest_heading(T_odom_robot_.yaw)));
+  hold_axis(0, axes_yaw_rad);
   const bool is_blocked = has_collided && !(params_.sliding && share >= kSlidAlong);
   return is_blocked ? MotionOutcome::kBlocked : MotionOutcome::kSucceeded;
 }
 
-void StepDrive::turn(int quarter_turns) {
-  hold_heading(yaw(turned(nearest_heading(T_odom_robot_.yaw), quarter_turns)));
-}
-
-void StepDrive::hold_heading(double odom_yaw_rad) {
+void StepDrive::hold_axis(int quarter_turns, double axes_yaw_rad) {
+  const double axis_rad =
+      axes_yaw_rad + yaw(turned(nearest_heading(T_odom_robot_.yaw - axes_yaw_rad), quarter_turns));
   const double counted =
-      wrap_angle(odom_yaw_rad + kAlignError_rad * draw_normal(rng_) - T_odom_robot_.yaw);
+      wrap_angle(axis_rad + kAlignError_rad * draw_normal(rng_) - T_odom_robot_.yaw);
   const double error = params_.turn_noise * std::sqrt(std::abs(counted)) * draw_normal(rng_);
   T_odom_robot_.yaw = wrap_angle(T_odom_robot_.yaw + counted);
   T_world_robot_.yaw = wrap_angle(T_world_robot_.yaw + (counted - error) / (1.0 + turn_bias_));

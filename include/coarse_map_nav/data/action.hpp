@@ -19,6 +19,8 @@ constexpr double kCmnStep_m = 0.15;
 struct Action {
   ActionType type = ActionType::kStop;
   double distance_m = 0.0;  ///< of kMoveForward
+  /// Yaw, in the frame of the odometry, of the axes that the robot keeps to; 0: the odometry's own.
+  double axes_yaw_rad = 0.0;
 };
 
 /// The heading an action leaves a robot with.

@@ -17,6 +17,9 @@ struct Localization {
   double yaw_rad = 0.0;     ///< likewise finer than its heading, in the axes of the grid
   double confidence = 0.0;  ///< probability within 1 m of the estimate, at its heading
   bool is_converged = false;
+  double scale = 1.0;  ///< nominal map metres a metre, as far as it is estimated
+  /// Yaw of the axes that the robot keeps to, in the frame of the odometry.
+  double axes_yaw_rad = 0.0;
 };
 
 }  // namespace cmn

@@ -14,6 +14,7 @@
 #include "coarse_map_nav/localization/motion_model.hpp"
 #include "coarse_map_nav/localization/neighbourhood.hpp"
 #include "coarse_map_nav/localization/particle_params.hpp"
+#include "coarse_map_nav/localization/scale_filter.hpp"
 
 #include <array>
 #include <cstdint>
@@ -27,6 +28,7 @@ namespace cmn {
 
 struct LocalizationParams {
   std::string filter = "discrete";
+  ScaleFilterParams scaled;
   MotionModelParams motion;
   MeasurementModelParams measurement;
   ParticleParams particles;
@@ -42,10 +44,10 @@ struct LocalizationParams {
   }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit(
-        "filter", self.filter, OneOf{{"discrete", "particle"}},
-        "discrete: a belief over headings and cells (CMN, Robb); particle: poses and local scales "
-        "(CMN's baseline MCSE)");
+    visit("filter", self.filter, OneOf{{"discrete", "particle", "scaled"}},
+          "discrete: a belief over headings and cells (CMN, Robb); particle: poses and local scales "
+          "(CMN's baseline MCSE); scaled: scales, headings and cells (ours)");
+    visit.group("scaled", self.scaled);
     visit.group("motion", self.motion);
     visit.group("measurement", self.measurement);
     visit.group("particles", self.particles);

@@ -32,6 +32,8 @@ struct Situation {
   bool is_converged = false;
   bool is_blocked_ahead = false;  ///< the obstacle guard refuses to move forward, or is_stuck
   bool is_stuck = false;          ///< the last action was a step forward, and ended blocked
+  double scale = 1.0;             ///< nominal map metres a metre
+  double axes_yaw_rad = 0.0;      ///< see Localization
   const LocalOccupancy* local_map = nullptr;  ///< what is seen farther around, where it is known
 };
 

@@ -38,10 +38,9 @@ class StepDrive {
   int collisions() const { return collisions_; }
 
  private:
-  MotionOutcome forward(double distance_m);
-  void turn(int quarter_turns);
-  /// Turns until odometry counts this yaw.
-  void hold_heading(double odom_yaw_rad);
+  MotionOutcome forward(double distance_m, double axes_yaw_rad);
+  /// Turns onto the axis that lies so many quarter turns from the nearest one.
+  void hold_axis(int quarter_turns, double axes_yaw_rad);
 
   const World& world_;
   RobotParams params_;

@@ -1,0 +1,465 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/localization/scale_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace cmn {
+namespace {
+
+/// Of the greatest weight; less is dropped, and with it the work on it.
+constexpr float kLeastShare = 1e-6F;
+/// Free rays are probed at these shares of their range.
+constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
+
+Cell rounded(Point2 p) {
+  return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
+}
+
+}  // namespace
+
+ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
+                         double converged_confidence)
+    : map_{map},
+      params_{params},
+      converged_confidence_{converged_confidence},
+      table_{map, code_},
+      compass_{params.compass},
+      belief_{map.width(), map.height()} {
+  stride_ = belief_.stride();
+  const double farthest_m = params.reach_m * std::max(1.0, params.greatest_scale);
+  plane_margin_ = static_cast<int>(std::ceil(farthest_m / map.resolution())) + 3;
+  plane_stride_ = map.width() + 2 * plane_margin_;
+  const int plane_height = map.height() + 2 * plane_margin_;
+
+  cv::Mat free(plane_height, plane_stride_, CV_8U, cv::Scalar{0});
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      free.at<std::uint8_t>(y + plane_margin_, x + plane_margin_) = map.is_free({x, y}) ? 255 : 0;
+    }
+  }
+  cv::Mat distance;
+  cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+  const auto cells =
+      static_cast<std::size_t>(plane_stride_) * static_cast<std::size_t>(plane_height);
+  field_.resize(cells);
+  occupied_.resize(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    // From the border of what is drawn, not from the middle of its cell.
+    const double d_m =
+        std::max(0.0, static_cast<double>(reinterpret_cast<const float*>(distance.data)[i]) - 0.5) *
+        map.resolution();
+    const double share = d_m / params.field_sigma_m;
+    field_[i] = static_cast<float>(std::log(std::exp(-0.5 * share * share) + params.field_random));
+    occupied_[i] = free.data[i] == 0 ? 1.0F : 0.0F;
+  }
+
+  for (int i = 0; i < params.scales; ++i) {
+    Sheet sheet;
+    const double share = params.scales == 1 ? 0.0 : static_cast<double>(i) / (params.scales - 1);
+    sheet.scale =
+        params.scales == 1
+            ? 1.0
+            : params.least_scale * std::pow(params.greatest_scale / params.least_scale, share);
+    sheets_.push_back(std::move(sheet));
+  }
+  scratch_.assign(belief_.padded_size(), 0.0F);
+  reset();
+}
+
+void ScaleFilter::start(const std::array<double, 4>& heading_weights) {
+  for (Sheet& sheet : sheets_) {
+    sheet.offset = {};
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      sheet.weight[layer].assign(belief_.padded_size(), 0.0F);
+      sheet.support[layer].clear();
+      for (std::size_t i = 0; i < map_.occupied().size() && heading_weights[layer] > 0.0; ++i) {
+        const Cell c = map_.occupied().cell_at(i);
+        const std::size_t at = belief_.padded_index(c);
+        if (table_.may_stand(at)) {
+          sheet.weight[layer][at] = static_cast<float>(
+              heading_weights[layer] * (map_.is_free(c) ? 1.0 : params_.rim_penalty));
+          sheet.support[layer].push_back(static_cast<std::uint32_t>(at));
+        }
+      }
+    }
+  }
+  p_odom_last_.reset();
+  compass_.reset();
+  double total = 0.0;
+  for (const Sheet& sheet : sheets_) {
+    for (const auto& weights : sheet.weight) {
+      for (const float w : weights) {
+        total += static_cast<double>(w);
+      }
+    }
+  }
+  normalise(total);
+  summarise();
+}
+
+void ScaleFilter::reset() { start({1.0, 1.0, 1.0, 1.0}); }
+
+void ScaleFilter::reset_heading(Heading heading) {
+  // Odometry begins with yaw 0: the drawing lies in it as the robot's heading says.
+  std::array<double, 4> weights{};
+  weights[static_cast<std::size_t>(index(heading))] = 1.0;
+  start(weights);
+}
+
+Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
+  const int i = static_cast<int>(padded_index);
+  return {i % stride_ - 1, i / stride_ - 1};
+}
+
+std::ptrdiff_t ScaleFilter::plane_index(std::uint32_t padded_index) const {
+  const Cell c = cell_of(padded_index);
+  return static_cast<std::ptrdiff_t>(c.y + plane_margin_) * plane_stride_ + c.x + plane_margin_;
+}
+
+void ScaleFilter::shift(Sheet& sheet, int layer, Cell by) {
+  std::vector<float>& weight = sheet.weight[static_cast<std::size_t>(layer)];
+  std::vector<std::uint32_t>& support = sheet.support[static_cast<std::size_t>(layer)];
+  scratch_support_.clear();
+  const std::ptrdiff_t delta = static_cast<std::ptrdiff_t>(by.y) * stride_ + by.x;
+  for (const std::uint32_t i : support) {
+    const Cell to = cell_of(i) + by;
+    const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= map_.width() && to.y <= map_.height() &&
+                        table_.may_stand(static_cast<std::size_t>(i + delta));
+    // Mass that faces a wall stays (CMN eq. 1): perhaps the wall is not there.
+    const auto target = static_cast<std::uint32_t>(may_go ? i + delta : i);
+    if (scratch_[target] == 0.0F) {
+      scratch_support_.push_back(target);
+    }
+    scratch_[target] += weight[i];
+  }
+  for (const std::uint32_t i : support) {
+    weight[i] = 0.0F;
+  }
+  for (const std::uint32_t i : scratch_support_) {
+    weight[i] = scratch_[i];
+    scratch_[i] = 0.0F;
+  }
+  support.swap(scratch_support_);
+}
+
+void ScaleFilter::diffuse(Sheet& sheet, int layer, double share) {
+  std::vector<float>& weight = sheet.weight[static_cast<std::size_t>(layer)];
+  std::vector<std::uint32_t>& support = sheet.support[static_cast<std::size_t>(layer)];
+  scratch_support_.clear();
+  const auto give = static_cast<float>(share);
+  for (const std::uint32_t i : support) {
+    float stays = weight[i];
+    const float part = give * weight[i];
+    for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1},
+                                      std::ptrdiff_t{stride_}, -std::ptrdiff_t{stride_}}) {
+      const auto target = static_cast<std::uint32_t>(i + step);
+      if (table_.may_stand(target)) {
+        if (scratch_[target] == 0.0F) {
+          scratch_support_.push_back(target);
+        }
+        scratch_[target] += part;
+        stays -= part;
+      }
+    }
+    if (scratch_[i] == 0.0F) {
+      scratch_support_.push_back(i);
+    }
+    scratch_[i] += stays;
+  }
+  for (const std::uint32_t i : scratch_support_) {
+    weight[i] = scratch_[i];
+    scratch_[i] = 0.0F;
+  }
+  support.swap(scratch_support_);
+}
+
+void ScaleFilter::move(Sheet& sheet, Point2 driven_m) {
+  sheet.offset = sheet.offset + (sheet.scale / map_.resolution()) * driven_m;
+  const Cell whole = rounded(sheet.offset);
+  sheet.offset = sheet.offset - Point2{static_cast<double>(whole.x), static_cast<double>(whole.y)};
+  const double share = std::min(0.2, params_.diffusion * norm(driven_m));
+  for (int layer = 0; layer < 4; ++layer) {
+    if (whole != Cell{0, 0}) {
+      shift(sheet, layer, turned(whole, layer));
+    }
+    if (share > 0.0) {
+      diffuse(sheet, layer, share);
+    }
+  }
+}
+
+void ScaleFilter::drift_between_scales(double share) {
+  if (share <= 0.0 || sheets_.size() < 2) {
+    return;
+  }
+  for (std::size_t layer = 0; layer < 4; ++layer) {
+    const auto give = static_cast<float>(share);
+    // From each sheet to the next and back: what both give up is exchanged at once.
+    for (std::size_t s = 0; s + 1 < sheets_.size(); ++s) {
+      Sheet& a = sheets_[s];
+      Sheet& b = sheets_[s + 1];
+      const std::size_t in_a = a.support[layer].size();
+      for (const std::uint32_t i : b.support[layer]) {
+        if (a.weight[layer][i] == 0.0F) {
+          a.weight[layer][i] = std::numeric_limits<float>::min();
+          a.support[layer].push_back(i);
+        }
+      }
+      for (std::size_t j = 0; j < in_a; ++j) {
+        const std::uint32_t i = a.support[layer][j];
+        if (b.weight[layer][i] == 0.0F) {
+          b.weight[layer][i] = std::numeric_limits<float>::min();
+          b.support[layer].push_back(i);
+        }
+      }
+      for (const std::uint32_t i : a.support[layer]) {
+        const float from_a = give * a.weight[layer][i];
+        const float from_b = give * b.weight[layer][i];
+        a.weight[layer][i] += from_b - from_a;
+        b.weight[layer][i] += from_a - from_b;
+      }
+    }
+  }
+}
+
+ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet& sheet,
+                                            int layer) const {
+  Evidence evidence;
+  int known = 0;
+  int hits = 0;
+  for (const Ray& ray : rays) {
+    known += ray.is_known();
+    hits += ray.is_hit;
+  }
+  const double range_weight = known > 0 ? params_.range_weight / known : 0.0;
+  const double inverse_variance = 1.0 / (params_.range_sigma * params_.range_sigma);
+  const double cap_m = params_.reach_m * sheet.scale;
+  for (int b = 0; b < kBearings; ++b) {
+    const Ray& ray = rays[static_cast<std::size_t>(b)];
+    auto& by_code = evidence.by_code[static_cast<std::size_t>(b)];
+    if (!ray.is_known()) {
+      by_code.fill(0.0F);
+      continue;
+    }
+    const double seen = code_.exact(ray.range_m * sheet.scale);
+    const double cap = code_.exact(cap_m);
+    for (int q = 0; q < 256; ++q) {
+      const double error = code_.step() * (seen - std::min(static_cast<double>(q), cap));
+      double value = std::exp(-0.5 * error * error * inverse_variance);
+      if (error < 0.0) {
+        // Shorter than expected: clutter; and with no hit, all that one can say.
+        value = ray.is_hit ? value + params_.range_short : 1.0 + params_.range_short;
+      }
+      by_code[static_cast<std::size_t>(q)] =
+          static_cast<float>(range_weight * std::log(value + params_.range_random));
+    }
+    const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b));
+    const auto offset_at = [&](double range_m) {
+      const Cell c = turned(
+          rounded(sheet.offset + (range_m * sheet.scale / map_.resolution()) * ahead), layer);
+      return static_cast<std::ptrdiff_t>(c.y) * plane_stride_ + c.x;
+    };
+    if (ray.is_hit) {
+      evidence.hits.push_back(offset_at(ray.range_m));
+    }
+    if (b % 2 == 0) {
+      for (const double share : kProbes) {
+        evidence.frees.push_back(offset_at(share * ray.range_m));
+      }
+    }
+  }
+  return evidence;
+}
+
+double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
+  const std::uint8_t* expected = table_.row(cell);
+  // The look's bearing b lies at b + layer quarter turns on the drawing.
+  float range = 0.0F;
+  const int first = layer * kBearingsPerQuarter;
+  for (int b = 0; b < kBearings - first; ++b) {
+    range += evidence.by_code[static_cast<std::size_t>(b)][expected[b + first]];
+  }
+  for (int b = kBearings - first; b < kBearings; ++b) {
+    range += evidence.by_code[static_cast<std::size_t>(b)][expected[b + first - kBearings]];
+  }
+  const std::ptrdiff_t at = plane_index(cell);
+  float hits = 0.0F;
+  for (const std::ptrdiff_t offset : evidence.hits) {
+    hits += field_[static_cast<std::size_t>(at + offset)];
+  }
+  float frees = 0.0F;
+  for (const std::ptrdiff_t offset : evidence.frees) {
+    frees += occupied_[static_cast<std::size_t>(at + offset)];
+  }
+  return static_cast<double>(range) +
+         params_.field_weight * static_cast<double>(hits) /
+             std::max<double>(1.0, static_cast<double>(evidence.hits.size())) -
+         params_.free_weight * static_cast<double>(frees) /
+             std::max<double>(1.0, static_cast<double>(evidence.frees.size()));
+}
+
+bool ScaleFilter::weigh(const RayProfile& rays, double news) {
+  // Logs first: only their differences matter, so the greatest becomes 1.
+  double greatest = -std::numeric_limits<double>::infinity();
+  std::vector<std::array<std::vector<float>, 4>> logs(sheets_.size());
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    for (int layer = 0; layer < 4; ++layer) {
+      const auto& support = sheets_[s].support[static_cast<std::size_t>(layer)];
+      if (support.empty()) {
+        continue;
+      }
+      const Evidence look = evidence(rays, sheets_[s], layer);
+      std::vector<float>& log = logs[s][static_cast<std::size_t>(layer)];
+      log.reserve(support.size());
+      for (const std::uint32_t i : support) {
+        const double rim = map_.is_free(cell_of(i)) ? 0.0 : std::log(params_.rim_penalty + 1e-9);
+        const double value =
+            news * (log_likelihood(look, layer, i) + rim) +
+            std::log(static_cast<double>(sheets_[s].weight[static_cast<std::size_t>(layer)][i]));
+        log.push_back(static_cast<float>(value));
+        greatest = std::max(greatest, value);
+      }
+    }
+  }
+  if (!std::isfinite(greatest)) {
+    return false;
+  }
+  double total = 0.0;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      auto& support = sheets_[s].support[layer];
+      auto& weight = sheets_[s].weight[layer];
+      std::size_t kept = 0;
+      for (std::size_t j = 0; j < support.size(); ++j) {
+        const std::uint32_t i = support[j];
+        const float w = std::exp(logs[s][layer][j] - static_cast<float>(greatest));
+        weight[i] = w > kLeastShare ? w : 0.0F;
+        if (w > kLeastShare) {
+          support[kept++] = i;
+          total += static_cast<double>(w);
+        }
+      }
+      support.resize(kept);
+    }
+  }
+  normalise(total);
+  return true;
+}
+
+void ScaleFilter::normalise(double total) {
+  const auto factor = static_cast<float>(1.0 / total);
+  for (Sheet& sheet : sheets_) {
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      for (const std::uint32_t i : sheet.support[layer]) {
+        sheet.weight[layer][i] *= factor;
+      }
+    }
+  }
+}
+
+Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
+  compass_.look(seen, T_odom_robot.yaw);
+  const Pose2 T_axes_robot = Pose2{0.0, 0.0, -compass_.axes_yaw_rad()} * T_odom_robot;
+  Point2 driven;
+  double news = 1.0;
+  if (p_odom_last_) {
+    driven = turned(T_odom_robot.position() - *p_odom_last_, -compass_.axes_yaw_rad());
+    news = std::min(1.0, norm(driven) / params_.independence_m);
+  }
+  p_odom_last_ = T_odom_robot.position();
+  for (Sheet& sheet : sheets_) {
+    move(sheet, driven);
+  }
+  drift_between_scales(std::min(0.2, params_.scale_drift * norm(driven)));
+  Correction outcome = Correction::kApplied;
+  if (news > 0.0 && !weigh(cast_rays(seen, T_axes_robot.yaw, params_.reach_m), news)) {
+    outcome = Correction::kContradiction;
+  }
+  yaw_rad_ = T_axes_robot.yaw;
+  summarise();
+  return outcome;
+}
+
+std::vector<double> ScaleFilter::scale_marginal() const {
+  std::vector<double> marginal;
+  for (const Sheet& sheet : sheets_) {
+    double mass = 0.0;
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      for (const std::uint32_t i : sheet.support[layer]) {
+        mass += static_cast<double>(sheet.weight[layer][i]);
+      }
+    }
+    marginal.push_back(mass);
+  }
+  return marginal;
+}
+
+void ScaleFilter::summarise() {
+  for (const auto& [heading, i] : shown_) {
+    belief_.layer(heading)[i] = 0.0;
+  }
+  shown_.clear();
+  belief_.set_factor(1.0);
+  const int quarters = nearest_quarter(yaw_rad_);
+  double best = -1.0;
+  int best_layer = 0;
+  std::uint32_t best_cell = 0;
+  for (int layer = 0; layer < 4; ++layer) {
+    const Heading heading = turned(static_cast<Heading>(layer), quarters);
+    std::vector<double>& shown = belief_.layer(heading);
+    for (const Sheet& sheet : sheets_) {
+      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
+        if (shown[i] == 0.0) {
+          shown_.emplace_back(heading, i);
+        }
+        shown[i] += static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
+        if (shown[i] > best) {
+          best = shown[i];
+          best_layer = layer;
+          best_cell = i;
+        }
+      }
+    }
+  }
+  estimate_ = {turned(static_cast<Heading>(best_layer), quarters), cell_of(best_cell), best};
+  // The mean of what lies within 1 m of the best cell: finer than a cell, and the scale there.
+  const double radius = 1.0 / map_.resolution();
+  const auto layer = static_cast<std::size_t>(best_layer);
+  Point2 sum;
+  double mass = 0.0;
+  double log_scale = 0.0;
+  for (const Sheet& sheet : sheets_) {
+    const Point2 offset = turned(sheet.offset, best_layer * kPi / 2.0);
+    for (const std::uint32_t i : sheet.support[layer]) {
+      const Cell c = cell_of(i);
+      const Cell off = c - estimate_.cell;
+      if (off.x * off.x + off.y * off.y <= radius * radius) {
+        const auto w = static_cast<double>(sheet.weight[layer][i]);
+        sum = sum + w * (middle_of(c) + offset);
+        log_scale += w * std::log(sheet.scale);
+        mass += w;
+      }
+    }
+  }
+  position_cells_ = (1.0 / mass) * sum;
+  scale_ = std::exp(log_scale / mass);
+  confidence_ = mass;
+}
+
+Localization ScaleFilter::localization() const {
+  const double residual = wrap_angle(yaw_rad_ - nearest_quarter(yaw_rad_) * kPi / 2.0);
+  return {belief_,         estimate_,
+          position_cells_, wrap_angle(yaw(estimate_.heading) + residual),
+          confidence_,     confidence_ >= converged_confidence_,
+          scale_,          compass_.axes_yaw_rad()};
+}
+
+}  // namespace cmn
