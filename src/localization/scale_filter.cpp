@@ -15,7 +15,7 @@ namespace cmn {
 namespace {
 
 /// Of the greatest weight; less is dropped, and with it the work on it.
-constexpr float kLeastShare = 1e-6F;
+constexpr float kLeastShare = 1e-9F;
 /// Free rays are probed at these shares of their range.
 constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
 
@@ -45,20 +45,22 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
       free.at<std::uint8_t>(y + plane_margin_, x + plane_margin_) = map.is_free({x, y}) ? 255 : 0;
     }
   }
+  // Hits lie on surfaces: on what is drawn beside free ground, not deep within it.
+  cv::Mat near_free;
+  cv::dilate(free, near_free, cv::Mat{});
+  const cv::Mat no_surface = (free != 0) | (near_free == 0);
   cv::Mat distance;
-  cv::distanceTransform(free, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-  const auto cells =
-      static_cast<std::size_t>(plane_stride_) * static_cast<std::size_t>(plane_height);
-  field_.resize(cells);
-  occupied_.resize(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
-    // From the border of what is drawn, not from the middle of its cell.
-    const double d_m =
-        std::max(0.0, static_cast<double>(reinterpret_cast<const float*>(distance.data)[i]) - 0.5) *
-        map.resolution();
-    const double share = d_m / params.field_sigma_m;
-    field_[i] = static_cast<float>(std::log(std::exp(-0.5 * share * share) + params.field_random));
-    occupied_[i] = free.data[i] == 0 ? 1.0F : 0.0F;
+  cv::distanceTransform(no_surface, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+  for (int y = 0; y < plane_height; ++y) {
+    for (int x = 0; x < plane_stride_; ++x) {
+      // From the border of the cell, not from its middle.
+      const double d_m =
+          std::max(0.0, static_cast<double>(distance.at<float>(y, x)) - 0.5) * map.resolution();
+      const double share = d_m / params.field_sigma_m;
+      field_.push_back(
+          static_cast<float>(std::log(std::exp(-0.5 * share * share) + params.field_random)));
+      occupied_.push_back(free.at<std::uint8_t>(y, x) == 0 ? 1.0F : 0.0F);
+    }
   }
 
   for (int i = 0; i < params.scales; ++i) {
@@ -129,16 +131,17 @@ void ScaleFilter::shift(Sheet& sheet, int layer, Cell by) {
   std::vector<std::uint32_t>& support = sheet.support[static_cast<std::size_t>(layer)];
   scratch_support_.clear();
   const std::ptrdiff_t delta = static_cast<std::ptrdiff_t>(by.y) * stride_ + by.x;
+  const auto blocked = static_cast<float>(params_.blocked_share);
   for (const std::uint32_t i : support) {
     const Cell to = cell_of(i) + by;
     const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= map_.width() && to.y <= map_.height() &&
                         table_.may_stand(static_cast<std::size_t>(i + delta));
-    // Mass that faces a wall stays (CMN eq. 1): perhaps the wall is not there.
+    // Mass that faces a wall stays (CMN eq. 1), but hardly: walls that are drawn mostly stand.
     const auto target = static_cast<std::uint32_t>(may_go ? i + delta : i);
     if (scratch_[target] == 0.0F) {
       scratch_support_.push_back(target);
     }
-    scratch_[target] += weight[i];
+    scratch_[target] += (may_go ? 1.0F : blocked) * weight[i];
   }
   for (const std::uint32_t i : support) {
     weight[i] = 0.0F;

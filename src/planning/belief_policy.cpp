@@ -58,6 +58,8 @@ void BeliefPolicy::look(const Situation& situation) {
     cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
     is_stale_ = false;
   }
+  hypotheses_ = hypotheses(situation);
+  best_ = best_state(situation, hypotheses_);
 }
 
 std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) const {
@@ -196,13 +198,11 @@ ActionType BeliefPolicy::explore(const Situation& /*situation*/, std::mt19937_64
 ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng) {
   ActionType action = ActionType::kStop;
   if (situation.is_converged) {
-    const std::vector<Hypothesis> at = hypotheses(situation);
-    std::size_t best = best_state(situation, at);
-    for (int i = 0; best == 0 && i < kMostGaps && close_gap(situation); ++i) {
+    for (int i = 0; best_ == 0 && i < kMostGaps && close_gap(situation); ++i) {
       cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
-      best = best_state(situation, at);
+      best_ = best_state(situation, hypotheses_);
     }
-    action = lattice_.first_action(best);
+    action = lattice_.first_action(best_);
   }
   if (action == ActionType::kStop) {
     action = explore(situation, rng);

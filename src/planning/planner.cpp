@@ -115,7 +115,8 @@ bool Planner::is_at_goal(const Situation& situation) const {
   // Without walls a path along the axes is at most sqrt(2) times the straight line, and a cell of
   // the map more.
   if (own_m) {
-    return straight_m <= params_.goal_tolerance_m && *own_m <= 2.0 * params_.goal_tolerance_m;
+    return straight_m <= params_.goal_tolerance_m && *own_m <= 2.0 * params_.goal_tolerance_m &&
+           policy_->is_as_near_as_can_be();
   }
   const Cell here = situation.estimate.cell;
   const double path_m = cost_to_go_(here) * cell_m;

@@ -57,6 +57,8 @@ struct EpisodeMoment {
   Point2 goal_map;         ///< on it [m]
   const Decision& decision;
   const LocalOccupancy& local_map;
+  const LocalOccupancy& seen;  ///< by the localizer
+  Pose2 T_odom_robot;
 };
 using EpisodeRecorder = std::function<void(const EpisodeMoment&)>;
 

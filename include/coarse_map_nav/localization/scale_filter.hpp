@@ -26,17 +26,18 @@ struct ScaleFilterParams {
   double least_scale = 0.7;
   double greatest_scale = 1.4;
   double scale_drift = 0.0;
-  double range_weight = 12.0;
-  double range_sigma = 0.25;
-  double range_short = 0.3;
-  double range_random = 0.05;
-  double field_weight = 6.0;
+  double range_weight = 10.0;
+  double range_sigma = 0.12;
+  double range_short = 0.25;
+  double range_random = 0.08;
+  double field_weight = 1.5;
   double field_sigma_m = 0.3;
-  double field_random = 0.05;
-  double free_weight = 6.0;
-  double independence_m = 0.3;
+  double field_random = 0.3;
+  double free_weight = 4.0;
+  double independence_m = 0.8;
   double rim_penalty = 0.3;
   double diffusion = 0.1;
+  double blocked_share = 0.3;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("compass", self.compass);
@@ -69,7 +70,9 @@ struct ScaleFilterParams {
     visit("rim_penalty", self.rim_penalty, Between{0.0, 1.0},
           "[-] likelihood of standing on an occupied cell beside a free one, per look");
     visit("diffusion", self.diffusion, Between{0.0, 5.0},
-          "[cells/m] share of a cell's belief that goes over to each neighbour per metre driven");
+          "[1/m] share of a cell's belief that goes over to each neighbour per metre driven");
+    visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
+          "[-] so much of the belief that would have to pass a drawn wall stays before it");
   }
 };
 

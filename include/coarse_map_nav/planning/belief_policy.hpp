@@ -28,6 +28,7 @@ class BeliefPolicy : public Policy {
   ActionType choose(const Situation& situation, std::mt19937_64& rng) override;
   void reset() override;
   std::optional<double> distance_to_go_m(const Situation& situation) override;
+  bool is_as_near_as_can_be() const override { return best_ == 0; }
   const RepairedMap* repaired_map() const override { return map_ ? &*map_ : nullptr; }
 
  private:
@@ -47,7 +48,9 @@ class BeliefPolicy : public Policy {
   MapRepairParams repair_;
   std::optional<RepairedMap> map_;
   RepairedCostToGo cost_to_go_;
-  bool is_stale_ = true;  ///< cost_to_go_ no longer is that of map_
+  bool is_stale_ = true;                ///< cost_to_go_ no longer is that of map_
+  std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
+  std::size_t best_ = 0;                ///< state of the lattice to go to; 0: stay
   ActionType last_ = ActionType::kStop;
 };
 

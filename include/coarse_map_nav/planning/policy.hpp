@@ -50,6 +50,8 @@ class Policy {
   virtual std::optional<double> distance_to_go_m(const Situation& /*situation*/) {
     return std::nullopt;
   }
+  /// True when nothing in reach is nearer to the goal than where the robot stands.
+  virtual bool is_as_near_as_can_be() const { return true; }
   /// What the policy has learned about the drawing; null: nothing.
   virtual const RepairedMap* repaired_map() const { return nullptr; }
 };
