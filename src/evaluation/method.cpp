@@ -67,7 +67,10 @@ NavigatorParams method_params(const Method& method, const Task& task,
   }
   if (method.knows_pose) {
     params.planning.policy = "belief";
-    params.planning.goal_tolerance_m = 0.2;
+    params.planning.goal_tolerance_m = 0.25;
+  }
+  if (method.plans_on_world) {
+    params.planning.map_repair.drawn_wall_cost = 1000;  // walls of the world are no mistakes
   }
   if (task.has_paper_setting) {
     params.perception.guard.occupied_share = 1.0;

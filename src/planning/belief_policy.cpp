@@ -18,6 +18,8 @@ constexpr std::size_t kMostHypotheses = 100;
 constexpr double kLeastShare = 0.02;  ///< of the best hypothesis; less is left out
 /// The way there is dearer than the cost-to-go counts (turns, nearness): progress must still pay.
 constexpr double kGreed = 2.0;
+/// What another way must be better by than the one that was chosen before.
+constexpr double kResolve_m = 1.0;
 constexpr int kMostGaps = 8;  ///< closed in one decision
 
 }  // namespace
@@ -32,6 +34,7 @@ void BeliefPolicy::reset() {
   }
   is_stale_ = true;
   last_ = ActionType::kStop;
+  target_.reset();
 }
 
 void BeliefPolicy::look(const Situation& situation) {
@@ -140,8 +143,12 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
       memo *= part_m;
     }
     to_go_m = memo;
-    if (states[i].cost_m + kGreed * to_go_m < least_m - 1e-6) {
-      least_m = states[i].cost_m + kGreed * to_go_m;
+    double cost_m = states[i].cost_m + kGreed * to_go_m;
+    if (target_ && std::abs(place.x - target_->x) <= 2 && std::abs(place.y - target_->y) <= 2) {
+      cost_m -= kResolve_m;
+    }
+    if (cost_m < least_m - 1e-6) {
+      least_m = cost_m;
       best = i;
     }
   }
@@ -208,7 +215,17 @@ ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng
     action = explore(situation, rng);
   }
   last_ = action;
+  remember(lattice_.states()[best_].offset, action);
   return action;
+}
+
+void BeliefPolicy::remember(Cell target, ActionType action) {
+  target_.reset();
+  if (best_ != 0) {
+    // As it will lie when the action is done.
+    target_ = action == ActionType::kMoveForward ? target - Cell{1, 0}
+                                                 : turned(target, -quarter_turns(action));
+  }
 }
 
 std::optional<double> BeliefPolicy::distance_to_go_m(const Situation& situation) {

@@ -8,7 +8,7 @@
 namespace cmn {
 namespace {
 
-constexpr int kFailedCost = 200;
+constexpr int kFailedCost = 300;
 
 }  // namespace
 
@@ -16,8 +16,7 @@ RepairedMap::RepairedMap(const CoarseMap& drawing, const MapRepairParams& params
     : drawing_{drawing},
       params_{params},
       cuts_{std::max(1, static_cast<int>(std::ceil(drawing.resolution() / params.cell_m - 1e-6)))},
-      state_{drawing.width() * cuts_, drawing.height() * cuts_},
-      cost_of_{1, params.drawn_wall_cost, 1, params.seen_wall_cost, kFailedCost} {
+      parts_{drawing.width() * cuts_, drawing.height() * cuts_} {
   forget();
 }
 
@@ -26,11 +25,19 @@ Cell RepairedMap::part_of(Point2 position_cells) const {
           static_cast<int>(std::floor(position_cells.y * cuts_))};
 }
 
+int RepairedMap::cost(Cell c) const {
+  const Part& part = parts_(c);
+  return part.has_failed ? kFailedCost
+         : part.is_open  ? 1
+         : part.was_seen ? params_.seen_wall_cost
+                         : params_.drawn_wall_cost;
+}
+
 void RepairedMap::forget() {
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    const Cell part = state_.cell_at(i);
-    const bool is_free = drawing_.is_free({part.x / cuts_, part.y / cuts_});
-    state_[i] = is_free ? kDrawnFree : kDrawnWall;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Cell c = parts_.cell_at(i);
+    const bool is_free = drawing_.is_free({c.x / cuts_, c.y / cuts_});
+    parts_[i] = {static_cast<std::int8_t>(is_free ? 1 : -1), is_free, false, false};
   }
 }
 
@@ -69,41 +76,46 @@ bool RepairedMap::fuse(const LocalOccupancy& local, const ClearanceMap& clearanc
   bool has_changed = false;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const Cell part = low + Cell{x, y};
-      const Tally& tally = tally_of(part);
-      if (tally.known == 0 || !state_.contains(part) || state_(part) == kFailed) {
+      const Cell c = low + Cell{x, y};
+      const Tally& tally = tally_of(c);
+      if (tally.known == 0 || !parts_.contains(c)) {
         continue;
       }
-      std::uint8_t& state = state_(part);
-      const std::uint8_t before = state;
-      if (tally.drivable >= params_.open_share * whole) {
-        state = kSeenOpen;
-      } else if (tally.known >= params_.known_share * whole) {
-        state = kSeenWall;
+      const bool is_open = tally.drivable >= params_.open_share * whole;
+      if (!is_open && tally.known < params_.known_share * whole) {
+        continue;
       }
-      has_changed |= cost_of_[state] != cost_of_[before];
+      const int before = cost(c);
+      Part& part = parts_(c);
+      part.was_seen = true;
+      part.looks = static_cast<std::int8_t>(
+          std::clamp(part.looks + (is_open ? 1 : -1), -kMostLooks, kMostLooks));
+      // At 0 it stays what it was: a part at the rim of a wall does not flicker.
+      part.is_open = part.looks > 0 || (part.looks == 0 && part.is_open);
+      has_changed |= cost(c) != before;
     }
   }
   return has_changed;
 }
 
 bool RepairedMap::mark_failed(Cell part) {
-  if (!state_.contains(part) || state_(part) == kFailed) {
+  if (!parts_.contains(part) || parts_(part).has_failed) {
     return false;
   }
-  state_(part) = kFailed;
+  parts_(part).has_failed = true;
   return true;
 }
 
 void RepairedMap::forget_failures() {
-  std::replace(state_.values().begin(), state_.values().end(), std::uint8_t{kFailed},
-               std::uint8_t{kSeenWall});
+  for (Part& part : parts_.values()) {
+    part.has_failed = false;
+  }
 }
 
 CoarseMap RepairedMap::as_map() const {
   Grid<std::uint8_t> occupied{width(), height()};
   for (std::size_t i = 0; i < occupied.size(); ++i) {
-    occupied[i] = cost_of_[state_[i]] == 1 ? 0 : 1;
+    occupied[i] = is_open(occupied.cell_at(i)) ? 0 : 1;
   }
   return {std::move(occupied), drawing_.resolution() / cuts_, drawing_.T_map_grid()};
 }

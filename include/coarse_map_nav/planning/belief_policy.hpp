@@ -42,6 +42,7 @@ class BeliefPolicy : public Policy {
   std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
   /// The goal would lead through a gap that the lattice does not fit through: closes it.
   bool close_gap(const Situation& situation);
+  void remember(Cell target, ActionType action);
   ActionType explore(const Situation& situation, std::mt19937_64& rng);
 
   LocalLattice lattice_;
@@ -51,6 +52,7 @@ class BeliefPolicy : public Policy {
   bool is_stale_ = true;                ///< cost_to_go_ no longer is that of map_
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
   std::size_t best_ = 0;                ///< state of the lattice to go to; 0: stay
+  std::optional<Cell> target_;  ///< of the last decision, from where the robot is now [steps]
   ActionType last_ = ActionType::kStop;
 };
 

@@ -20,8 +20,8 @@ struct MapRepairParams {
   double confidence = 0.5;
   double open_share = 0.15;
   double known_share = 0.6;
-  int drawn_wall_cost = 8;
-  int seen_wall_cost = 40;
+  int drawn_wall_cost = 25;
+  int seen_wall_cost = 100;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("enabled", self.enabled, Anything{}, "plan on a copy of the drawing that is repaired");
@@ -52,12 +52,12 @@ class RepairedMap {
   /// In the cells of the drawing and, `cuts()` times as many, in its own.
   const CoarseMap& drawing() const { return drawing_; }
   Cell part_of(Point2 position_cells) const;
-  int width() const { return state_.width(); }
-  int height() const { return state_.height(); }
-  bool contains(Cell part) const { return state_.contains(part); }
+  int width() const { return parts_.width(); }
+  int height() const { return parts_.height(); }
+  bool contains(Cell part) const { return parts_.contains(part); }
   /// What a step into this part costs, in steps into a free one.
-  int cost(Cell part) const { return cost_of_[state_(part)]; }
-  bool is_open(Cell part) const { return cost(part) == 1; }
+  int cost(Cell part) const;
+  bool is_open(Cell part) const { return parts_(part).is_open && !parts_(part).has_failed; }
 
   /// Learns from what the robot sees around itself, standing at `position_cells` of the drawing
   /// with its x axis along `yaw_rad` of the grid; a metre on the ground is `scale` metres drawn.
@@ -74,13 +74,20 @@ class RepairedMap {
   CoarseMap as_map() const;
 
  private:
-  enum State : std::uint8_t { kDrawnFree, kDrawnWall, kSeenOpen, kSeenWall, kFailed, kStates };
+  /// Looks for (> 0) and against (< 0) a part's being open, at most kMostLooks either way. What is
+  /// drawn counts as one look.
+  struct Part {
+    std::int8_t looks = 0;
+    bool is_open = false;
+    bool was_seen = false;
+    bool has_failed = false;
+  };
+  static constexpr int kMostLooks = 4;
 
   CoarseMap drawing_;
   MapRepairParams params_;
   int cuts_ = 1;
-  Grid<std::uint8_t> state_;
-  std::vector<int> cost_of_;
+  Grid<Part> parts_;
   struct Tally {
     int pixels = 0;
     int known = 0;
