@@ -3,10 +3,16 @@
 /// \file
 /// The whole graph of simulation.launch on its way. Each journey_*.test runs one of these tests.
 #include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/DiscreteAction.h"
+#include "coarse_map_nav/LocalOccupancy.h"
 #include "coarse_map_nav/MotionResult.h"
 #include "coarse_map_nav/NavigationStatus.h"
 #include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/navigator.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/ros/tf_lookup.hpp"
 
 #include <cmath>
 #include <csignal>
@@ -21,8 +27,11 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <move_base_msgs/MoveBaseAction.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/network.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 
 namespace cmn {
 namespace {
@@ -52,6 +61,7 @@ class Journey : public testing::Test {
     move_base_msgs::MoveBaseGoal message;
     message.target_pose.header.frame_id = "map";
     message.target_pose.pose = pose_message({goal->map.x, goal->map.y, 0.0});
+    goal_message_ = message;
     client_.sendGoal(message);
     goal_ = goal->world;
   }
@@ -110,6 +120,7 @@ class Journey : public testing::Test {
 
   MapPlaces places_;
   Point2 goal_{};
+  move_base_msgs::MoveBaseGoal goal_message_;
   nav_msgs::Odometry start_;
   Pose2 T_odom_start_;
   ros::NodeHandle nh_;
@@ -201,6 +212,108 @@ TEST_F(Journey, ArrivesAlthoughEveryNodeIsKilledOnTheWay) {
   EXPECT_EQ(statuses_.back().state, NavigationStatus::REACHED) << statuses_.back().text;
   EXPECT_LT(to_goal_m(), 1.5) << "it says that it is there";
   expect_sane();
+}
+
+/// What was heard of a journey, for doing it again without ROS.
+class ReplayedJourney : public Journey {
+ protected:
+  /// The localizer begins anew, before the eyes of this test.
+  void restart_localizer() {
+    ASSERT_TRUE(wait_for([this] { return !observations_.empty() && !maps_.empty(); }));
+    const pid_t first = pid_of("/localizer");
+    ASSERT_GT(first, 0);
+    kill(first, SIGKILL);
+    beliefs_.clear();  // at rest none is under way
+    ASSERT_TRUE(wait_for([this] { return !beliefs_.empty(); }));
+  }
+  const coarse_map_nav::LocalOccupancy* observation_at(const ros::Time& stamp) const {
+    for (const auto& observation : observations_.all()) {
+      if (observation->header.stamp == stamp) {
+        return observation.get();
+      }
+    }
+    return nullptr;
+  }
+  const coarse_map_nav::DiscreteAction* action_of(std::uint32_t id) const {
+    for (const auto& action : actions_.all()) {
+      if (action->id == id) {
+        return action.get();
+      }
+    }
+    return nullptr;
+  }
+  MotionOutcome outcome_of(std::uint32_t id) const {
+    for (const auto& result : results_.all()) {
+      if (result->id == id) {
+        return static_cast<MotionOutcome>(result->outcome);
+      }
+    }
+    return MotionOutcome::kSucceeded;  // before the first action
+  }
+  /// As the nodes have loaded them.
+  static NavigatorParams params() {
+    NavigatorParams params =
+        load_params_or_exit<NodeParams<PlannerNodeParams>>(ros::NodeHandle("/planner")).navigator;
+    params.localization =
+        load_params_or_exit<NodeParams<LocalizerNodeParams>>(ros::NodeHandle("/localizer"))
+            .navigator.localization;
+    return params;
+  }
+
+  tf2_ros::Buffer transforms_{ros::Duration(3600.0)};
+  tf2_ros::TransformListener listener_{transforms_};
+  Inbox<coarse_map_nav::LocalOccupancy> observations_{"local_occupancy"};
+  Inbox<coarse_map_nav::DiscreteAction> actions_{"action"};
+  Inbox<nav_msgs::OccupancyGrid> maps_{"map"};
+};
+
+TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
+  ASSERT_NO_FATAL_FAILURE(restart_localizer());
+  ASSERT_NO_FATAL_FAILURE(send_goal(""));
+  const auto enough = static_cast<std::size_t>(ros::param::param("~actions", 40));
+  const std::size_t before = actions();
+  ASSERT_TRUE(
+      wait_for([&] { return has_ended() || actions() >= before + enough; }, kJourneyPatience_s));
+
+  std::string why;
+  const auto map = map_of(maps_.back(), why);
+  ASSERT_TRUE(map) << why;
+  Navigator navigator{*map, params()};
+  const Point2 goal{goal_message_.target_pose.pose.position.x,
+                    goal_message_.target_pose.pose.position.y};
+  ASSERT_FALSE(navigator.planner().set_goal(goal));
+  int compared = 0;
+  for (std::size_t i = 0; i + 1 < beliefs_.size(); ++i) {
+    const auto& belief = *beliefs_.all()[i];
+    SCOPED_TRACE("belief " + std::to_string(i) + " after action " +
+                 std::to_string(belief.action_id));
+    const auto* observation = observation_at(belief.header.stamp);
+    ASSERT_NE(observation, nullptr);
+    const auto seen = local_occupancy_of(*observation, why);
+    ASSERT_TRUE(seen) << why;
+    const auto T_odom_robot =
+        lookup(transforms_, "odom", observation->header.frame_id, observation->header.stamp, why);
+    ASSERT_TRUE(T_odom_robot) << why;
+    const Decision decision =
+        navigator.step(RangeScan{}, *seen, *T_odom_robot, outcome_of(belief.action_id));
+
+    const Localization at = navigator.localizer().localization();
+    const auto theirs = belief_of(belief, *map, why);
+    ASSERT_TRUE(theirs) << why;
+    for (const Heading h : kHeadings) {
+      for (std::size_t c = 0; c < map->occupied().size(); ++c) {
+        const Cell cell = map->occupied().cell_at(c);
+        ASSERT_NEAR(at.belief(h, cell), theirs->belief(h, cell), 1e-6);
+      }
+    }
+    EXPECT_EQ(at.estimate, theirs->estimate);
+    const auto* action = action_of(belief.action_id + 1);
+    ASSERT_NE(action, nullptr);
+    EXPECT_EQ(static_cast<int>(decision.action.type), static_cast<int>(action->type));
+    EXPECT_FLOAT_EQ(static_cast<float>(decision.action.distance_m), action->distance);
+    ++compared;
+  }
+  EXPECT_GE(compared, has_ended() ? 1 : static_cast<int>(enough) - 2);
 }
 
 }  // namespace
