@@ -53,8 +53,9 @@ class ParticleFilter : public Localizer {
 
   Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
   Localization localization() const override {
-    return {belief_,  estimate_,   position_cells_,
-            yaw_rad_, confidence_, confidence_ >= params_.converged_confidence};
+    return {belief_,     estimate_,   position_cells_,
+            yaw_rad_,    confidence_, confidence_ >= params_.converged_confidence,
+            1.0 / scale_};
   }
 
   // The halves of update(); the belief follows only in update().
