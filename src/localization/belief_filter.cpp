@@ -105,19 +105,14 @@ void BeliefFilter::reset_heading(Heading heading) {
 
 bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
                               double yaw_sigma_rad) {
-  const double position_sigma = std::max(position_sigma_m, 0.5 * map_.resolution());
-  const double yaw_sigma = std::max(yaw_sigma_rad, 0.1);
   Belief near{map_.width(), map_.height()};
   for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
     const Cell c = map_.occupied().cell_at(i);
-    if (map_.is_occupied(c)) {
-      continue;
-    }
-    const double off = norm(map_.center_of(c) - T_map_robot.position()) / position_sigma;
     for (const Heading h : kHeadings) {
-      const double off_yaw =
-          wrap_angle(yaw(h) + map_.T_map_grid().yaw - T_map_robot.yaw) / yaw_sigma;
-      near.set_weight(h, c, off > 5.0 ? 0.0 : std::exp(-0.5 * (off * off + off_yaw * off_yaw)));
+      near.set_weight(h, c,
+                      map_.is_free(c)
+                          ? weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, h, c)
+                          : 0.0);
     }
   }
   if (!near.normalise()) {
@@ -244,11 +239,6 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   return settle(evidence);
 }
 
-Pose2 BeliefFilter::T_map_robot() const {
-  const Point2 p = map_.center_of(estimate_.cell);
-  return {p.x, p.y, wrap_angle(map_.T_map_grid().yaw + yaw_rad())};
-}
-
 double BeliefFilter::yaw_rad() const {
   return yaw(estimate_.heading) + (T_odom_last_ ? residual_yaw(*T_odom_last_) : 0.0);
 }
@@ -259,7 +249,6 @@ Correction BeliefFilter::settle(double evidence) {
     contradictions_in_a_row_ = 0;
   } else {
     outcome = Correction::kContradiction;
-    ++contradictions_;
     if (++contradictions_in_a_row_ >= params_.reopen_after) {
       contradictions_in_a_row_ = 0;
       outcome = Correction::kReopened;

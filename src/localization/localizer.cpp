@@ -5,9 +5,25 @@
 #include "coarse_map_nav/localization/belief_filter.hpp"
 #include "coarse_map_nav/localization/particle_filter.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace cmn {
+
+Pose2 pose_in_map(const CoarseMap& map, const Localization& localization) {
+  const Point2 p = map.resolution() * localization.position_cells;
+  return map.T_map_grid() * Pose2{p.x, p.y, localization.yaw_rad};
+}
+
+double weight_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad,
+                   const CoarseMap& map, Heading heading, Cell cell) {
+  const double sigma_m = std::max(position_sigma_m, 0.5 * map.resolution());
+  const double off = norm(map.center_of(cell) - T_map_robot.position()) / sigma_m;
+  const double off_yaw = wrap_angle(yaw(heading) + map.T_map_grid().yaw - T_map_robot.yaw) /
+                         std::max(yaw_sigma_rad, 0.1);
+  return off > 5.0 ? 0.0 : std::exp(-0.5 * (off * off + off_yaw * off_yaw));
+}
 
 std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const LocalizationParams& params) {
   if (params.filter == "discrete") {

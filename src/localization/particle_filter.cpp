@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 namespace cmn {
 namespace {
@@ -70,6 +71,42 @@ void ParticleFilter::start(std::optional<Heading> heading) {
     particle.scale = any_scale();
     particle.weight = 1.0 / count;
   }
+  restart();
+}
+
+bool ParticleFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
+                                double yaw_sigma_rad) {
+  std::vector<Estimate> near;  // with the sum of the weights so far for a probability
+  double total = 0.0;
+  for (const Cell c : free_cells_) {
+    for (const Heading h : kHeadings) {
+      const double weight = weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, h, c);
+      if (weight > 0.0) {
+        total += weight;
+        near.push_back({h, c, total});
+      }
+    }
+  }
+  if (near.empty()) {
+    return false;
+  }
+  const auto count = static_cast<double>(particles_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    // Drawn from equal parts of the weight (Thrun et al. 2005, Table 4.4).
+    const double sum = (static_cast<double>(i) + draw_uniform(rng_)) / count * total;
+    const auto state =
+        std::lower_bound(near.begin(), std::prev(near.end()), sum,
+                         [](const Estimate& e, double s) { return e.probability < s; });
+    particles_[i] = {{state->cell.x + draw_uniform(rng_), state->cell.y + draw_uniform(rng_)},
+                     yaw(state->heading),
+                     any_scale(),
+                     1.0 / count};
+  }
+  restart();
+  return true;
+}
+
+void ParticleFilter::restart() {
   T_odom_last_.reset();
   contradictions_in_a_row_ = 0;
   publish(0.0);

@@ -76,25 +76,28 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
   reset();
 }
 
-void ScaleFilter::start(const std::array<double, 4>& heading_weights) {
+void ScaleFilter::start(const std::function<double(Heading, Cell)>& weight_of) {
   for (Sheet& sheet : sheets_) {
     sheet.offset = {};
-    for (std::size_t layer = 0; layer < 4; ++layer) {
+    for (const Heading heading : kHeadings) {
+      const auto layer = static_cast<std::size_t>(index(heading));
       sheet.weight[layer].assign(belief_.padded_size(), 0.0F);
       sheet.support[layer].clear();
-      for (std::size_t i = 0; i < map_.occupied().size() && heading_weights[layer] > 0.0; ++i) {
+      for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
         const Cell c = map_.occupied().cell_at(i);
         const std::size_t at = belief_.padded_index(c);
-        if (table_.may_stand(at)) {
-          sheet.weight[layer][at] = static_cast<float>(
-              heading_weights[layer] * (map_.is_free(c) ? 1.0 : params_.rim_penalty));
+        const double share = map_.is_free(c) ? 1.0 : params_.rim_penalty;
+        const auto weight =
+            table_.may_stand(at) ? static_cast<float>(share * weight_of(heading, c)) : 0.0F;
+        if (weight > 0.0F) {
+          sheet.weight[layer][at] = weight;
           sheet.support[layer].push_back(static_cast<std::uint32_t>(at));
         }
       }
     }
   }
   p_odom_last_.reset();
-  compass_.reset();
+  yaw_rad_ = 0.0;
   double total = 0.0;
   for (const Sheet& sheet : sheets_) {
     for (const auto& weights : sheet.weight) {
@@ -107,13 +110,29 @@ void ScaleFilter::start(const std::array<double, 4>& heading_weights) {
   summarise();
 }
 
-void ScaleFilter::reset() { start({1.0, 1.0, 1.0, 1.0}); }
+void ScaleFilter::reset() {
+  start([](Heading, Cell) { return 1.0; });
+}
 
 void ScaleFilter::reset_heading(Heading heading) {
-  // Odometry begins with yaw 0: the drawing lies in it as the robot's heading says.
-  std::array<double, 4> weights{};
-  weights[static_cast<std::size_t>(index(heading))] = 1.0;
-  start(weights);
+  start([&](Heading h, Cell) { return h == heading ? 1.0 : 0.0; });
+}
+
+bool ScaleFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
+                             double yaw_sigma_rad) {
+  const auto weight_of = [&](Heading heading, Cell c) {
+    return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, heading, c);
+  };
+  bool is_near_free = false;
+  for (std::size_t i = 0; i < map_.occupied().size() && !is_near_free; ++i) {
+    const Cell c = map_.occupied().cell_at(i);
+    is_near_free = map_.is_free(c) && std::any_of(kHeadings.begin(), kHeadings.end(),
+                                                  [&](Heading h) { return weight_of(h, c) > 0.0; });
+  }
+  if (is_near_free) {
+    start(weight_of);
+  }
+  return is_near_free;
 }
 
 Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
@@ -376,6 +395,12 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   if (p_odom_last_) {
     driven = turned(T_odom_robot.position() - *p_odom_last_, -compass_.axes_yaw_rad());
     news = std::min(1.0, norm(driven) / params_.independence_m);
+  } else {
+    const int quarters = index(nearest_heading(T_axes_robot.yaw));
+    for (Sheet& sheet : sheets_) {
+      std::rotate(sheet.weight.begin(), sheet.weight.begin() + quarters, sheet.weight.end());
+      std::rotate(sheet.support.begin(), sheet.support.begin() + quarters, sheet.support.end());
+    }
   }
   p_odom_last_ = T_odom_robot.position();
   for (Sheet& sheet : sheets_) {

@@ -5,20 +5,23 @@
 
 #include "coarse_map_nav/LocalOccupancy.h"
 #include "coarse_map_nav/MotionResult.h"
+#include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/update_gate.hpp"
 #include "coarse_map_nav/ros/belief_publisher.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/map_odom_broadcaster.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
 #include "coarse_map_nav/ros/tf_lookup.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <message_filters/subscriber.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
@@ -26,7 +29,6 @@
 #include <std_srvs/Empty.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
 namespace {
@@ -41,6 +43,7 @@ class LocalizerNode {
         gate_{params_.own.gate},
         publisher_{nh_, params_.frames.map},
         observations_{"local_occupancy", 2.0},
+        tf_broadcaster_{params_.frames.map, params_.frames.odom, params_.own.transform_tolerance_s},
         occupancy_sub_{nh_, "local_occupancy", 5},
         tf_filter_{occupancy_sub_, tf_buffer_, params_.frames.odom, 5, nh_} {
     observe_pub_ = nh_.advertise<std_msgs::Empty>("observe", 1);
@@ -69,8 +72,13 @@ class LocalizerNode {
     if (filter_ && cmn::is_same_drawing(filter_->map(), *map)) {
       return;  // the map server came back with the same drawing
     }
-    filter_.emplace(*map, params_.navigator.localization);
+    start_over(*map);
     publisher_.place_layers(*map);
+  }
+
+  void start_over(const cmn::CoarseMap& map) {
+    filter_ = cmn::make_localizer(map, params_.navigator.localization);
+    contradictions_ = 0;
     gate_.reset();
   }
 
@@ -97,19 +105,18 @@ class LocalizerNode {
     }
     if (gate_.time_jumped_back(seen->stamp_s)) {
       ROS_WARN("time went backwards: starting over");
-      filter_->reset();
-      gate_.reset();
+      start_over(filter_->map());
     }
     if (gate_.is_due(seen->stamp_s, *T_odom_robot)) {
       const cmn::Correction outcome = filter_->update(*seen, *T_odom_robot);
       ROS_WARN_COND(outcome != cmn::Correction::kApplied, "what is seen contradicts the map%s",
                     outcome == cmn::Correction::kReopened ? ": the belief is re-opened" : "");
-      T_odom_update_ = *T_odom_robot;
+      contradictions_ += outcome != cmn::Correction::kApplied;
+      tf_broadcaster_.set(cmn::pose_in_map(filter_->map(), filter_->localization()) *
+                          cmn::inverse(*T_odom_robot));
       publisher_.publish(*filter_, gate_.action_id(), msg->header.stamp);
     }
-    if (msg->header.stamp != last_broadcast_) {  // perception repeats itself when it is asked to
-      broadcast(msg->header.stamp);
-    }
+    tf_broadcaster_.send(msg->header.stamp);
   }
 
   void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& msg) {
@@ -135,17 +142,6 @@ class LocalizerNode {
     return true;
   }
 
-  void broadcast(const ros::Time& stamp) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = stamp + ros::Duration(params_.own.transform_tolerance_s);
-    transform.header.frame_id = params_.frames.map;
-    transform.child_frame_id = params_.frames.odom;
-    transform.transform =
-        cmn::transform_message(filter_->T_map_robot() * cmn::inverse(T_odom_update_));
-    tf_broadcaster_.sendTransform(transform);
-    last_broadcast_ = stamp;
-  }
-
   void on_timer(const ros::TimerEvent& /*event*/) {
     if (gate_.is_waiting()) {
       observe_pub_.publish(std_msgs::Empty{});
@@ -159,22 +155,24 @@ class LocalizerNode {
       status.summary(Status::WARN, "waiting for a map");
       return;
     }
-    status.summary(Status::OK, filter_->is_converged() ? "converged" : "localizing");
-    status.add("confidence", filter_->confidence());
-    status.add("contradictions", filter_->contradictions());
+    const cmn::Localization at = filter_->localization();
+    status.summary(Status::OK, at.is_converged ? "converged" : "localizing");
+    status.add("confidence", at.confidence);
+    status.add("scale", at.scale);
+    status.add("axes yaw [deg]", at.axes_yaw_rad * 180.0 / cmn::kPi);
+    status.add("contradictions", contradictions_);
   }
 
   ros::NodeHandle nh_;
   cmn::NodeParams<cmn::LocalizerNodeParams> params_;
-  std::optional<cmn::BeliefFilter> filter_;
+  std::unique_ptr<cmn::Localizer> filter_;
   cmn::UpdateGate gate_;
   cmn::BeliefPublisher publisher_;
   cmn::InputMonitor observations_;
-  cmn::Pose2 T_odom_update_;
-  ros::Time last_broadcast_;
+  std::uint64_t contradictions_ = 0;
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
-  tf2_ros::TransformBroadcaster tf_broadcaster_;
+  cmn::MapOdomBroadcaster tf_broadcaster_;
   message_filters::Subscriber<Occupancy> occupancy_sub_;
   tf2_ros::MessageFilter<Occupancy> tf_filter_;
   ros::Publisher observe_pub_;

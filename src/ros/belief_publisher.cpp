@@ -94,53 +94,52 @@ void BeliefPublisher::place_layers(const CoarseMap& map) {
   labels_pub_.publish(labels);
 }
 
-void BeliefPublisher::publish(const BeliefFilter& filter, std::uint32_t action_id,
+void BeliefPublisher::publish(const Localizer& localizer, std::uint32_t action_id,
                               const ros::Time& stamp) {
+  const Localization at = localizer.localization();
+  const CoarseMap& map = localizer.map();
   geometry_msgs::PoseWithCovarianceStamped pose;
   pose.header.frame_id = map_frame_;
   pose.header.stamp = stamp;
-  pose.pose.pose = pose_message(filter.T_map_robot());
-  const Spread spread = spread_about(filter.belief(), filter.estimate());
-  const double square = filter.map().resolution() * filter.map().resolution();
+  pose.pose.pose = pose_message(pose_in_map(map, at));
+  const Spread spread = spread_about(at.belief, at.estimate);
+  const double square = map.resolution() * map.resolution();
   pose.pose.covariance[0] = square * spread.xx;
   pose.pose.covariance[1] = pose.pose.covariance[6] = square * spread.xy;
   pose.pose.covariance[7] = square * spread.yy;
   pose.pose.covariance[35] = spread.yaw;
   pose_pub_.publish(pose);
 
-  coarse_map_nav::Belief belief = message_of(filter.belief(), filter.map());
+  coarse_map_nav::Belief belief = message_of(at, map);
   belief.header = pose.header;
-  belief.entropy = static_cast<float>(entropy(filter.belief()));
-  belief.confidence = static_cast<float>(filter.confidence());
-  belief.converged = static_cast<std::uint8_t>(filter.is_converged());
-  belief.estimate = pose.pose.pose;
   belief.action_id = action_id;
   belief_pub_.publish(belief);
 
-  publish_grids(filter, stamp);
-  publish_hypotheses(filter, stamp);
+  publish_grids(at, map, stamp);
+  publish_hypotheses(at, map, stamp);
 }
 
-void BeliefPublisher::publish_grids(const BeliefFilter& filter, const ros::Time& stamp) {
+void BeliefPublisher::publish_grids(const Localization& at, const CoarseMap& map,
+                                    const ros::Time& stamp) {
   nav_msgs::OccupancyGrid grid;
   grid.header.stamp = stamp;
-  grid.info = info_of(filter.map());
+  grid.info = info_of(map);
   grid.info.resolution *= static_cast<float>(kLayerScale);
   grid.info.origin = pose_message({});  // the layers' frames lie at their corners
-  grid.data.resize(filter.map().occupied().size());
-  const double greatest = filter.estimate().probability;
+  grid.data.resize(map.occupied().size());
+  const double greatest = at.estimate.probability;
   for (const Heading h : kHeadings) {
     const auto k = static_cast<std::size_t>(index(h));
     grid.header.frame_id = kLayerNames[k];
     for (std::size_t i = 0; i < grid.data.size(); ++i) {
-      const double p = filter.belief()(h, filter.map().occupied().cell_at(i));
-      grid.data[i] = filter.map().occupied()[i] != 0 ? -1 : shade_of(p, greatest);
+      const double p = at.belief(h, map.occupied().cell_at(i));
+      grid.data[i] = map.occupied()[i] != 0 ? -1 : shade_of(p, greatest);
     }
     layer_pubs_[k].publish(grid);
   }
   grid.header.frame_id = map_frame_;
-  grid.info = info_of(filter.map());
-  const Grid<double> p = marginal(filter.belief());
+  grid.info = info_of(map);
+  const Grid<double> p = marginal(at.belief);
   const double most = *std::max_element(p.values().begin(), p.values().end());
   for (std::size_t i = 0; i < grid.data.size(); ++i) {
     grid.data[i] = shade_of(p[i], most);
@@ -148,7 +147,8 @@ void BeliefPublisher::publish_grids(const BeliefFilter& filter, const ros::Time&
   marginal_pub_.publish(grid);
 }
 
-void BeliefPublisher::publish_hypotheses(const BeliefFilter& filter, const ros::Time& stamp) {
+void BeliefPublisher::publish_hypotheses(const Localization& at, const CoarseMap& map,
+                                         const ros::Time& stamp) {
   visualization_msgs::MarkerArray array;
   visualization_msgs::Marker marker;
   marker.header.frame_id = map_frame_;
@@ -158,11 +158,11 @@ void BeliefPublisher::publish_hypotheses(const BeliefFilter& filter, const ros::
   array.markers.push_back(marker);
   marker.action = visualization_msgs::Marker::ADD;
   marker.type = visualization_msgs::Marker::ARROW;
-  for (const Estimate& e : best_hypotheses(filter.belief(), 12, 2)) {
-    const double share = std::sqrt(e.probability / filter.estimate().probability);
-    const Point2 p = filter.map().center_of(e.cell);
+  for (const Estimate& e : best_hypotheses(at.belief, 12, 2)) {
+    const double share = std::sqrt(e.probability / at.estimate.probability);
+    const Point2 p = map.center_of(e.cell);
     marker.id = static_cast<int>(array.markers.size());
-    marker.pose = pose_message({p.x, p.y, yaw(e.heading) + filter.map().T_map_grid().yaw});
+    marker.pose = pose_message({p.x, p.y, yaw(e.heading) + map.T_map_grid().yaw});
     marker.pose.position.z = 0.05;  // above what rviz draws of the map
     marker.scale.x = std::max(0.1, 1.2 * share);
     marker.scale.y = marker.scale.z = std::max(0.03, 0.2 * share);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/ros/conversions.hpp"
 
+#include "coarse_map_nav/localization/localizer.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -28,11 +30,10 @@ double widened(float value) { return std::round(static_cast<double>(value) * 1e6
 /// A cell size that lengths can be divided by.
 bool is_resolution(float value) { return std::isfinite(value) && widened(value) > 0.0; }
 
-/// Compared as numbers: a far away point has no cell that an int could name.
-bool holds(const CoarseMap& map, Point2 p_map) {
-  const Point2 p = inverse(map.T_map_grid()) * p_map;
-  return p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() * map.resolution() &&
-         p.y < map.height() * map.resolution() && map.contains(map.cell_of(p_map));
+/// On the map, or at most a cell beside it.
+bool is_about(const CoarseMap& map, Point2 p_cells) {
+  return p_cells.x >= -1.0 && p_cells.y >= -1.0 && p_cells.x <= map.width() + 1.0 &&
+         p_cells.y <= map.height() + 1.0;
 }
 
 }  // namespace
@@ -190,16 +191,25 @@ RangeScan scan_of(const sensor_msgs::LaserScan& scan, const Pose2& T_robot_senso
   return result;
 }
 
-coarse_map_nav::Belief message_of(const Belief& belief, const CoarseMap& map) {
+coarse_map_nav::Belief message_of(const Localization& at, const CoarseMap& map) {
   coarse_map_nav::Belief message;
   message.info = info_of(map);
   message.layers = static_cast<std::uint8_t>(kHeadings.size());
   message.probability.reserve(kHeadings.size() * map.occupied().size());
   for (const Heading h : kHeadings) {
     for (std::size_t i = 0; i < map.occupied().size(); ++i) {
-      message.probability.push_back(static_cast<float>(belief(h, map.occupied().cell_at(i))));
+      message.probability.push_back(static_cast<float>(at.belief(h, map.occupied().cell_at(i))));
     }
   }
+  message.entropy = static_cast<float>(entropy(at.belief));
+  message.confidence = static_cast<float>(at.confidence);
+  message.converged = static_cast<std::uint8_t>(at.is_converged);
+  message.estimate = pose_message(pose_in_map(map, at));
+  message.most_probable = static_cast<std::uint32_t>(
+      static_cast<std::size_t>(index(at.estimate.heading)) * map.occupied().size() +
+      map.occupied().index_of(at.estimate.cell));
+  message.scale = static_cast<float>(at.scale);
+  message.axes_yaw = static_cast<float>(at.axes_yaw_rad);
   return message;
 }
 
@@ -226,12 +236,27 @@ std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const
     }
   }
   const std::optional<Pose2> T_map_robot = pose_of(msg.estimate);
-  if (!received.belief.normalise() || !T_map_robot || !holds(map, T_map_robot->position())) {
+  if (T_map_robot) {
+    const Pose2 T_grid_robot = inverse(map.T_map_grid()) * *T_map_robot;
+    received.position_cells = (1.0 / map.resolution()) * T_grid_robot.position();
+    received.yaw_rad = T_grid_robot.yaw;
+  }
+  if (!received.belief.normalise() || !T_map_robot || !is_about(map, received.position_cells) ||
+      msg.most_probable >= kHeadings.size() * cells) {
     why = "it holds no distribution or its estimate lies off the map";
     return std::nullopt;
   }
-  received.estimate.cell = map.cell_of(T_map_robot->position());
-  received.estimate.heading = nearest_heading(T_map_robot->yaw - map.T_map_grid().yaw);
+  received.confidence = static_cast<double>(msg.confidence);
+  received.scale = static_cast<double>(msg.scale);
+  received.axes_yaw_rad = static_cast<double>(msg.axes_yaw);
+  if (!std::isfinite(received.confidence) || !(received.scale > 0.0) ||
+      !std::isfinite(received.scale) || !std::isfinite(received.axes_yaw_rad)) {
+    why = "its confidence, scale or axes are no numbers";
+    return std::nullopt;
+  }
+  received.is_converged = msg.converged != 0;
+  received.estimate.heading = kHeadings[msg.most_probable / cells];
+  received.estimate.cell = map.occupied().cell_at(msg.most_probable % cells);
   received.estimate.probability =
       received.belief(received.estimate.heading, received.estimate.cell);
   return received;
@@ -244,6 +269,7 @@ coarse_map_nav::DiscreteAction message_of(const Action& action, std::uint32_t id
   message.id = id;
   message.type = static_cast<std::uint8_t>(action.type);
   message.distance = static_cast<float>(action.distance_m);
+  message.axes_yaw = static_cast<float>(action.axes_yaw_rad);
   return message;
 }
 

@@ -44,9 +44,10 @@ struct LocalizationParams {
   }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("filter", self.filter, OneOf{{"discrete", "particle", "scaled"}},
-          "discrete: a belief over headings and cells (CMN, Robb); particle: poses and local scales "
-          "(CMN's baseline MCSE); scaled: scales, headings and cells (ours)");
+    visit(
+        "filter", self.filter, OneOf{{"discrete", "particle", "scaled"}},
+        "discrete: a belief over headings and cells (CMN, Robb); particle: poses and local scales "
+        "(CMN's baseline MCSE); scaled: scales, headings and cells (ours)");
     visit.group("scaled", self.scaled);
     visit.group("motion", self.motion);
     visit.group("measurement", self.measurement);
@@ -78,11 +79,9 @@ class BeliefFilter : public Localizer {
   BeliefFilter(CoarseMap map, const LocalizationParams& params);
 
   /// Starts over, anywhere: uniform over the free cells of all layers.
-  void reset();
+  void reset() override;
   void reset_heading(Heading heading) override;
-  /// Starts over near a pose of the map frame: Gaussian in position, weighted by |yaw error| over
-  /// the headings. False, and nothing changed, when no free cell is near.
-  bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad);
+  bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad) override;
 
   /// Folds in one observation and the odometry since the one before. The first call after a reset
   /// only corrects.
@@ -99,18 +98,14 @@ class BeliefFilter : public Localizer {
   Correction correct(const LocalOccupancy& seen, double residual_yaw_rad = 0.0,
                      double weight = 1.0);
 
-  const CoarseMap& map() const { return map_; }
+  const CoarseMap& map() const override { return map_; }
   const Belief& belief() const { return belief_; }
   /// The most probable state; equals are told apart by a seeded draw, and the one chosen is kept
   /// while it is still among the best (CMN sec. IV-D: "ties are broken randomly").
   const Estimate& estimate() const { return estimate_; }
-  /// The estimate as a pose: the middle of its cell, its heading and what the robot was turned from
-  /// the odometry axis at the last update.
-  Pose2 T_map_robot() const;
   /// The probability within 1 m of the estimate, at its heading.
   double confidence() const { return confidence_; }
   bool is_converged() const { return confidence_ >= params_.converged_confidence; }
-  std::uint64_t contradictions() const { return contradictions_; }
 
  private:
   /// A move by a share of a cell, in [0, 1], towards heading + quarter_turn.
@@ -130,7 +125,8 @@ class BeliefFilter : public Localizer {
   void start_from(Belief belief);
   Correction settle(double evidence);
   void summarise();
-  /// Of the robot in the axes of the grid.
+  /// Of the robot in the axes of the grid: the estimate's heading and what the robot was turned
+  /// from the odometry axis at the last update.
   double yaw_rad() const;
   CoarseMap map_;
   LocalizationParams params_;
@@ -146,7 +142,6 @@ class BeliefFilter : public Localizer {
   Estimate estimate_;
   double confidence_ = 0.0;
   int contradictions_in_a_row_ = 0;
-  std::uint64_t contradictions_ = 0;
 };
 
 }  // namespace cmn

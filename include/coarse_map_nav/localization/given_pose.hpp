@@ -19,7 +19,14 @@ class GivenPose : public Localizer {
   Correction update(const LocalOccupancy& /*seen*/, const Pose2& /*T_odom_robot*/) override {
     return Correction::kApplied;
   }
+  void reset() override {}
   void reset_heading(Heading /*heading*/) override {}
+  bool reset_near(const Pose2& T_map_robot, double /*position_sigma_m*/,
+                  double /*yaw_sigma_rad*/) override {
+    place(T_map_robot);
+    return true;
+  }
+  const CoarseMap& map() const override { return map_; }
   Localization localization() const override {
     return {belief_, estimate_, position_cells_, yaw_rad_, 1.0, true};
   }

@@ -21,14 +21,29 @@ class Localizer {
   /// Folds in one observation and the odometry since the one before. The first call after a start
   /// or a reset only corrects.
   virtual Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) = 0;
-  /// Starts over anywhere on the drawing, at a known heading (CMN).
+  /// Starts over, anywhere on the drawing. The odometry goes on in its frame.
+  virtual void reset() = 0;
+  /// Likewise at a known heading (CMN).
   virtual void reset_heading(Heading heading) = 0;
+  /// Likewise near a pose of the map frame: Gaussian in position and over the headings. False, and
+  /// nothing changed, when no free cell is near.
+  virtual bool reset_near(const Pose2& T_map_robot, double position_sigma_m,
+                          double yaw_sigma_rad) = 0;
+  virtual const CoarseMap& map() const = 0;
   /// Good until the next call of update().
   virtual Localization localization() const = 0;
 };
 
+/// The finer pose of a localization, in metres of the drawing.
+Pose2 pose_in_map(const CoarseMap& map, const Localization& localization);
+
+/// What weight a pose's neighbourhood gives a state: sigmas of at least half a cell and 0.1 rad; 0
+/// beyond five sigmas.
+double weight_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad,
+                   const CoarseMap& map, Heading heading, Cell cell);
+
 struct LocalizationParams;
-/// "discrete" (CMN, Robb) or "particle" (CMN's baseline MCSE), by `params.filter`.
+/// "discrete" (CMN, Robb), "particle" (CMN's baseline MCSE) or "scaled" (ours), by `params.filter`.
 std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const LocalizationParams& params);
 
 }  // namespace cmn

@@ -47,9 +47,10 @@ class ParticleFilter : public Localizer {
  public:
   ParticleFilter(const CoarseMap& map, const LocalizationParams& params);
 
-  /// Starts over, anywhere on the free cells, along any of the drawing's axes, at any scale.
-  void reset();
+  /// Along any of the drawing's axes, at any scale.
+  void reset() override;
   void reset_heading(Heading heading) override;
+  bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad) override;
 
   Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
   Localization localization() const override {
@@ -66,7 +67,7 @@ class ParticleFilter : public Localizer {
   double correct(const LocalOccupancy& seen, double weight = 1.0);
 
   const std::vector<Particle>& particles() const { return particles_; }
-  const CoarseMap& map() const { return map_; }
+  const CoarseMap& map() const override { return map_; }
   /// True size of a cell over the nominal resolution near the estimate: the mean.
   double scale() const { return scale_; }
 
@@ -79,6 +80,7 @@ class ParticleFilter : public Localizer {
   }
   Point2 anywhere(double share);
   void start(std::optional<Heading> heading);
+  void restart();
   double any_scale();
   void resample();
   /// Puts this share of the particles anywhere.

@@ -6,75 +6,19 @@
 
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
-#include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/range_table.hpp"
+#include "coarse_map_nav/localization/scale_filter_params.hpp"
 #include "coarse_map_nav/localization/wall_compass.hpp"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace cmn {
-
-struct ScaleFilterParams {
-  WallCompassParams compass;
-  double reach_m = 8.0;
-  int scales = 1;
-  double least_scale = 0.7;
-  double greatest_scale = 1.4;
-  double scale_drift = 0.0;
-  double range_weight = 10.0;
-  double range_sigma = 0.12;
-  double range_short = 0.25;
-  double range_random = 0.08;
-  double field_weight = 1.5;
-  double field_sigma_m = 0.3;
-  double field_random = 0.3;
-  double free_weight = 4.0;
-  double independence_m = 0.8;
-  double rim_penalty = 0.3;
-  double diffusion = 0.1;
-  double blocked_share = 0.3;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit.group("compass", self.compass);
-    visit("reach_m", self.reach_m, Between{0.5, 100.0}, "[m] rays are compared up to this range");
-    visit("scales", self.scales, Between{1, 32},
-          "how many scales of the drawing are believed in, evenly spaced in log; 1: the nominal");
-    visit("least_scale", self.least_scale, Between{0.1, 10.0},
-          "[-] drawn metres a metre, at least");
-    visit("greatest_scale", self.greatest_scale, Between{0.1, 10.0}, "[-] and at most");
-    visit("scale_drift", self.scale_drift, Between{0.0, 1.0},
-          "[1/m] share of a scale's belief that goes over to each neighbour per metre");
-    visit("range_weight", self.range_weight, Between{0.0, 200.0},
-          "[-] range model: the mean over the bearings counts as so many independent ranges");
-    visit("range_sigma", self.range_sigma, Between{0.01, 2.0},
-          "[-] range model: standard deviation of the log of seen over expected range");
-    visit("range_short", self.range_short, Between{0.0, 1.0},
-          "[-] range model: share of a perfect match that a range shorter than expected is worth");
-    visit("range_random", self.range_random, Between{1e-6, 1.0},
-          "[-] range model: likewise of any range whatever");
-    visit("field_weight", self.field_weight, Between{0.0, 200.0},
-          "[-] likelihood field: the mean over the hits counts as so many independent ones");
-    visit("field_sigma_m", self.field_sigma_m, Between{0.01, 5.0},
-          "[m] likelihood field: standard deviation of the distance to what is drawn");
-    visit("field_random", self.field_random, Between{1e-6, 1.0},
-          "[-] likelihood field: floor of a hit far from everything drawn");
-    visit("free_weight", self.free_weight, Between{0.0, 200.0},
-          "[-] price of a look whose free rays lie all on what is drawn as occupied");
-    visit("independence_m", self.independence_m, Between{0.01, 10.0},
-          "[m] looks so far apart are independent, nearer ones count in proportion");
-    visit("rim_penalty", self.rim_penalty, Between{0.0, 1.0},
-          "[-] likelihood of standing on an occupied cell beside a free one, per look");
-    visit("diffusion", self.diffusion, Between{0.0, 5.0},
-          "[1/m] share of a cell's belief that goes over to each neighbour per metre driven");
-    visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
-          "[-] so much of the belief that would have to pass a drawn wall stays before it");
-  }
-};
 
 /// Differences to BeliefFilter (the papers'):
 ///  - A look is compared over the whole range of the sensor, not over three cells: by a range model
@@ -91,8 +35,10 @@ class ScaleFilter : public Localizer {
   /// `converged_confidence` as in LocalizationParams.
   ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params, double converged_confidence);
 
-  void reset();
+  void reset() override;
   void reset_heading(Heading heading) override;
+  bool reset_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad) override;
+  const CoarseMap& map() const override { return map_; }
   Correction update(const LocalOccupancy& seen, const Pose2& T_odom_robot) override;
   Localization localization() const override;
 
@@ -126,7 +72,8 @@ class ScaleFilter : public Localizer {
   double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   void normalise(double total);
   void summarise();
-  void start(const std::array<double, 4>& heading_weights);
+  /// Layers are taken to be headings until the first look tells how the odometry lies.
+  void start(const std::function<double(Heading, Cell)>& weight_of);
 
   std::ptrdiff_t plane_index(std::uint32_t padded_index) const;
   Cell cell_of(std::uint32_t padded_index) const;

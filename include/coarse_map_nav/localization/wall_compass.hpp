@@ -44,7 +44,6 @@ class WallCompass {
   void look(const LocalOccupancy& seen, double yaw_rad);
   /// Yaw of the building's axes in the frame of the odometry; begins with 0 [rad].
   double axes_yaw_rad() const { return axes_yaw_rad_; }
-  void reset() { axes_yaw_rad_ = 0.0; }
 
  private:
   double sharpness(const std::vector<Point2>& hits, double yaw_rad);

@@ -4,7 +4,7 @@
 /// A belief in all the forms that others want it in.
 #pragma once
 
-#include "coarse_map_nav/localization/belief_filter.hpp"
+#include "coarse_map_nav/localization/localizer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -27,11 +27,11 @@ class BeliefPublisher {
   /// Where rviz is to show the layers of a map of this size.
   void place_layers(const CoarseMap& map);
   /// Stamps everything with `stamp`.
-  void publish(const BeliefFilter& filter, std::uint32_t action_id, const ros::Time& stamp);
+  void publish(const Localizer& localizer, std::uint32_t action_id, const ros::Time& stamp);
 
  private:
-  void publish_grids(const BeliefFilter& filter, const ros::Time& stamp);
-  void publish_hypotheses(const BeliefFilter& filter, const ros::Time& stamp);
+  void publish_grids(const Localization& at, const CoarseMap& map, const ros::Time& stamp);
+  void publish_hypotheses(const Localization& at, const CoarseMap& map, const ros::Time& stamp);
 
   std::string map_frame_;
   ros::Publisher belief_pub_;

@@ -14,6 +14,7 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/localization.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
@@ -55,13 +56,24 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
 std::string fault_of(const sensor_msgs::LaserScan& scan);
 RangeScan scan_of(const sensor_msgs::LaserScan& scan, const Pose2& T_robot_sensor);
 
-/// A belief as the planner gets it.
+/// A localization as the planner gets it, with a belief of its own.
 struct ReceivedBelief {
   Belief belief;
   Estimate estimate;
+  Point2 position_cells;
+  double yaw_rad = 0.0;
+  double confidence = 0.0;
+  bool is_converged = false;
+  double scale = 1.0;
+  double axes_yaw_rad = 0.0;
+  /// Good as long as this is.
+  Localization localization() const {
+    return {belief,     estimate,     position_cells, yaw_rad,
+            confidence, is_converged, scale,          axes_yaw_rad};
+  }
 };
-/// Only the probabilities; the caller fills in header, estimate, summary and action_id.
-coarse_map_nav::Belief message_of(const Belief& belief, const CoarseMap& map);
+/// All but header and action_id.
+coarse_map_nav::Belief message_of(const Localization& at, const CoarseMap& map);
 /// Empty, and `why` says so, when the message does not fit the map or holds no distribution.
 std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const CoarseMap& map,
                                         std::string& why);

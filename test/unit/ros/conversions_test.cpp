@@ -244,10 +244,15 @@ coarse_map_nav::Belief belief_message() {
   belief.set_weight(Heading::kNorth, {3, 1}, 3.0);
   belief.set_weight(Heading::kWest, {1, 2}, 1.0);
   EXPECT_TRUE(belief.normalise());
-  coarse_map_nav::Belief message = message_of(belief, room());
-  const Point2 p = room().center_of({3, 1});
-  message.estimate = pose_message({p.x, p.y, kPi / 2.0 + room().T_map_grid().yaw + 0.2});
-  return message;
+  return message_of({belief,
+                     {Heading::kNorth, {3, 1}, 0.75},
+                     {3.9, 0.8},
+                     kPi / 2.0 + 0.2,
+                     0.875,
+                     true,
+                     0.75,
+                     -0.5},
+                    room());
 }
 
 TEST(BeliefConversion, RoundTripKeepsProbabilitiesAndEstimate) {
@@ -257,9 +262,16 @@ TEST(BeliefConversion, RoundTripKeepsProbabilitiesAndEstimate) {
   EXPECT_NEAR(back->belief(Heading::kNorth, {3, 1}), 0.75, 1e-7);
   EXPECT_NEAR(back->belief(Heading::kWest, {1, 2}), 0.25, 1e-7);
   EXPECT_EQ(back->belief(Heading::kEast, {1, 2}), 0.0);
-  EXPECT_EQ(back->estimate.cell, (Cell{3, 1}));
-  EXPECT_EQ(back->estimate.heading, Heading::kNorth) << "the residual yaw does not matter";
+  EXPECT_EQ(back->estimate.cell, (Cell{3, 1})) << "although the finer position is beside it";
+  EXPECT_EQ(back->estimate.heading, Heading::kNorth);
   EXPECT_NEAR(back->estimate.probability, 0.75, 1e-7);
+  EXPECT_NEAR(back->position_cells.x, 3.9, 1e-12);
+  EXPECT_NEAR(back->position_cells.y, 0.8, 1e-12);
+  EXPECT_NEAR(back->yaw_rad, kPi / 2.0 + 0.2, 1e-12);
+  EXPECT_EQ(back->confidence, 0.875);
+  EXPECT_TRUE(back->is_converged);
+  EXPECT_EQ(back->scale, 0.75);
+  EXPECT_EQ(back->axes_yaw_rad, -0.5);
 }
 
 TEST(BeliefConversion, MalformedBeliefsAreRefusedWithAReason) {
@@ -277,6 +289,10 @@ TEST(BeliefConversion, MalformedBeliefsAreRefusedWithAReason) {
       {"estimate without orientation", [](Message& m) { m.estimate.orientation = {}; }},
       {"estimate off the map", [](Message& m) { m.estimate.position.x = -100.0; }},
       {"estimate far off the map", [](Message& m) { m.estimate.position.x = 1e30; }},
+      {"most probable state beyond all", [](Message& m) { m.most_probable = 80; }},
+      {"confidence NaN", [](Message& m) { m.confidence = kNanF; }},
+      {"scale 0", [](Message& m) { m.scale = 0.0F; }},
+      {"axes inf", [](Message& m) { m.axes_yaw = kInfF; }},
   };
   for (const auto& fault : faults) {
     SCOPED_TRACE(fault.name);
