@@ -21,7 +21,7 @@ void controller_step(benchmark::State& state) {
       const bool turn = id % 2 == 0;
       controller.start(++id, {turn ? ActionType::kTurnLeft : ActionType::kMoveForward, 0.4}, now);
     }
-    const MotionStep step = controller.step(now, false, false);
+    const MotionStep step = controller.step(now, 10.0, false);
     now.stamp_s += 0.02;
     now.T_odom_robot = now.T_odom_robot * Pose2{0.02 * step.command.linear_mps, 0.0,
                                                 0.02 * step.command.angular_radps};

@@ -34,6 +34,9 @@ class Navigator {
   Planner& planner() { return planner_; }
   const LocalOccupancy& seen() const { return seen_; }
   const LocalOccupancy& local_map() const { return local_map_; }
+  /// What the obstacle guard allows, see clear_ahead_m().
+  double clear_ahead_m() const { return clear_ahead_m_; }
+  bool is_blocked_ahead() const { return clear_ahead_m_ < params_.planning.step_m; }
 
   /// `scan` was taken at `T_odom_robot`, after the last action had ended with `last_outcome`.
   Decision step(const RangeScan& scan, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
@@ -48,8 +51,8 @@ class Navigator {
       local_map_ = local_map_projector_.project(scan);
     }
     localizer_->update(seen_, T_odom_robot);
-    return planner_.decide(localizer_->localization(),
-                           is_blocked_ahead(seen_, params_.perception.guard), &local_map_);
+    clear_ahead_m_ = cmn::clear_ahead_m(scan, seen_, params_.perception.guard);
+    return planner_.decide(localizer_->localization(), is_blocked_ahead(), &local_map_);
   }
 
  private:
@@ -60,6 +63,7 @@ class Navigator {
   Planner planner_;
   LocalOccupancy seen_;
   LocalOccupancy local_map_;
+  double clear_ahead_m_ = 0.0;
 };
 
 }  // namespace cmn

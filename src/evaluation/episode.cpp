@@ -13,15 +13,16 @@ constexpr int kScanPeriod = 5;  ///< in odometry periods
 
 /// Carries one action out, the guard watching at scan rate as on the robot.
 MotionOutcome carry_out(const Action& action, std::uint32_t id, const ProjectionParams& projection,
-                        const ObstacleGuardParams& guard, bool is_blocked, Simulator& simulator,
+                        const ObstacleGuardParams& guard, double clear_m, Simulator& simulator,
                         MotionController& controller) {
   RangeProjector projector{projection};
   controller.start(id, action, simulator.odometry());
   for (int tick = 1;; ++tick) {
     if (tick % kScanPeriod == 0) {
-      is_blocked = is_blocked_ahead(projector.project(simulator.scan()), guard);
+      const RangeScan scan = simulator.scan();
+      clear_m = clear_ahead_m(scan, projector.project(scan), guard);
     }
-    const MotionStep step = controller.step(simulator.odometry(), is_blocked, simulator.bumped());
+    const MotionStep step = controller.step(simulator.odometry(), clear_m, simulator.bumped());
     if (step.result) {
       return step.result->outcome;
     }
@@ -51,12 +52,13 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
     const Localization at = navigator.localizer().localization();
     step.estimate = at.estimate;
     step.confidence = at.confidence;
-    step.was_blocked = is_blocked_ahead(navigator.seen(), params.perception.guard);
+    step.was_blocked = navigator.is_blocked_ahead();
     const bool is_over = step.decision.state == NavigationState::kReached ||
                          step.decision.state == NavigationState::kFailed;
     if (!is_over) {
-      step.outcome = carry_out(step.decision.action, id, params.perception.local_occupancy,
-                               params.perception.guard, step.was_blocked, simulator, controller);
+      step.outcome =
+          carry_out(step.decision.action, id, params.perception.local_occupancy,
+                    params.perception.guard, navigator.clear_ahead_m(), simulator, controller);
       last_outcome = step.outcome;
     }
     result.steps.push_back(step);

@@ -73,7 +73,7 @@ NavigatorParams method_params(const Method& method, const Task& task,
     params.planning.map_repair.drawn_wall_cost = 1000;  // walls of the world are no mistakes
   }
   if (task.has_paper_setting) {
-    params.perception.guard.occupied_share = 1.0;
+    params.perception.guard.type = "none";
   }
   const bool is_in_paper_setting = task.has_paper_setting && method.name != "oracle";
   if (method.has_shared_planner && !is_in_paper_setting) {

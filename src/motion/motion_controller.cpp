@@ -32,9 +32,10 @@ bool is_executable(const Action& action) {
     case ActionType::kStop:
     case ActionType::kTurnLeft:
     case ActionType::kTurnRight:
-      return true;
+      return std::isfinite(action.axes_yaw_rad);
     case ActionType::kMoveForward:
-      return std::isfinite(action.distance_m) && action.distance_m >= 0.0;
+      return std::isfinite(action.axes_yaw_rad) && std::isfinite(action.distance_m) &&
+             action.distance_m >= 0.0;
   }
   return false;  // a number from a message that is no action
 }
@@ -60,7 +61,7 @@ std::optional<MotionResult> MotionController::start(std::uint32_t id, const Acti
   return never_begun;
 }
 
-MotionStep MotionController::step(const OdometrySample& now, bool obstacle_ahead, bool collided) {
+MotionStep MotionController::step(const OdometrySample& now, double clear_ahead_m, bool collided) {
   const bool continuous = !has_last_ || is_continuous(now);
   const double period_s =
       has_last_ && continuous ? std::min(now.stamp_s - last_.stamp_s, kLongestPeriod_s) : 0.0;
@@ -80,9 +81,10 @@ MotionStep MotionController::step(const OdometrySample& now, bool obstacle_ahead
   }
 
   const bool forward = active_->order.action.type == ActionType::kMoveForward;
-  const bool blocked =
-      forward && (obstacle_ahead || collided) &&
-      active_->forward.way_left_m(last_.T_odom_robot) > params_.position_tolerance_m;
+  // Written so that NaN is never clear.
+  const double must_go_m =
+      active_->forward.way_left_m(last_.T_odom_robot) - params_.position_tolerance_m;
+  const bool blocked = forward && must_go_m > 0.0 && (collided || !(clear_ahead_m >= must_go_m));
   if (blocked) {
     end_as(MotionOutcome::kBlocked);
     command_ = {};
@@ -136,8 +138,10 @@ void MotionController::take(const OdometrySample& now) {
 
 void MotionController::begin(const Order& order) {
   const Pose2& T_odom_start = last_.T_odom_robot;
-  const double axis_yaw_rad =
-      (nearest_quarter(T_odom_start.yaw) + quarter_turns(order.action.type)) * kPi / 2.0;
+  const double axes_yaw_rad = order.action.axes_yaw_rad;
+  const int quarters =
+      nearest_quarter(T_odom_start.yaw - axes_yaw_rad) + quarter_turns(order.action.type);
+  const double axis_yaw_rad = axes_yaw_rad + quarters * kPi / 2.0;
   active_ = Active{order,
                    last_,
                    PivotController{params_, axis_yaw_rad},

@@ -18,7 +18,7 @@
 #include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
-#include <std_msgs/Bool.h>
+#include <std_msgs/Float32.h>
 
 namespace {
 
@@ -29,16 +29,16 @@ class MotionControllerNode {
             ros::NodeHandle("~"))},
         controller_{params_.navigator.motion},
         odometry_{"odom", params_.navigator.motion.odometry_timeout_s},
-        obstacles_{"obstacle_ahead", params_.own.obstacle_timeout_s},
+        guard_{"clear_ahead", params_.own.obstacle_timeout_s},
         actions_{"action", 0.0} {
     cmd_pub_ = nh_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     result_pub_ = nh_.advertise<coarse_map_nav::MotionResult>("motion_result", 5);
     odom_sub_ = nh_.subscribe("odom", 10, &MotionControllerNode::on_odometry, this,
                               ros::TransportHints().tcpNoDelay());
     action_sub_ = nh_.subscribe("action", 5, &MotionControllerNode::on_action, this);
-    obstacle_sub_ = nh_.subscribe("obstacle_ahead", 1, &MotionControllerNode::on_obstacle, this);
+    clear_sub_ = nh_.subscribe("clear_ahead", 1, &MotionControllerNode::on_clear, this);
     diagnostics_.setHardwareID("base");
-    for (cmn::InputMonitor* input : {&odometry_, &obstacles_, &actions_}) {
+    for (cmn::InputMonitor* input : {&odometry_, &guard_, &actions_}) {
       diagnostics_.add(input->name(), input, &cmn::InputMonitor::report);
     }
     watchdog_ = nh_.createTimer(ros::Duration(0.05), &MotionControllerNode::on_watchdog, this);
@@ -50,7 +50,7 @@ class MotionControllerNode {
  private:
   void on_action(const coarse_map_nav::DiscreteAction& msg) {
     const cmn::Action action{static_cast<cmn::ActionType>(msg.type),
-                             static_cast<double>(msg.distance)};
+                             static_cast<double>(msg.distance), static_cast<double>(msg.axes_yaw)};
     if (!cmn::is_executable(action)) {
       actions_.dropped("no such action");
       return;
@@ -83,19 +83,19 @@ class MotionControllerNode {
     const bool was_idle = controller_.is_idle();
     // Also when it was last heard before time went back.
     const bool is_guard_silent =
-        std::abs((last_arrival_ - obstacle_arrival_).toSec()) > params_.own.obstacle_timeout_s;
-    const cmn::MotionStep step =
-        controller_.step(*last_sample_, obstacle_ahead_ || is_guard_silent, bumper_.is_pressed());
+        std::abs((last_arrival_ - clear_arrival_).toSec()) > params_.own.obstacle_timeout_s;
+    const cmn::MotionStep step = controller_.step(
+        *last_sample_, is_guard_silent ? 0.0 : clear_ahead_m_, bumper_.is_pressed());
     if (!was_idle) {
       command(step.command);
     }
     publish(step.result);
   }
 
-  void on_obstacle(const std_msgs::Bool& blocked) {
-    obstacle_ahead_ = blocked.data != 0;
-    obstacle_arrival_ = ros::Time::now();
-    obstacles_.received(obstacle_arrival_);
+  void on_clear(const std_msgs::Float32& clear) {
+    clear_ahead_m_ = static_cast<double>(clear.data);
+    clear_arrival_ = ros::Time::now();
+    guard_.received(clear_arrival_);
   }
 
   /// Odometry may fall silent: then nobody else would stop the base.
@@ -136,19 +136,19 @@ class MotionControllerNode {
   cmn::NodeParams<cmn::MotionNodeParams> params_;
   cmn::MotionController controller_;
   cmn::InputMonitor odometry_;
-  cmn::InputMonitor obstacles_;
+  cmn::InputMonitor guard_;
   cmn::InputMonitor actions_;
   std::optional<cmn::OdometrySample> last_sample_;
   ros::Time last_arrival_;
-  ros::Time obstacle_arrival_;
-  bool obstacle_ahead_ = false;
+  ros::Time clear_arrival_;
+  double clear_ahead_m_ = 0.0;
   std::uint32_t active_id_ = 0;
   std::optional<coarse_map_nav::MotionResult> last_result_;
   ros::Publisher cmd_pub_;
   ros::Publisher result_pub_;
   ros::Subscriber odom_sub_;
   ros::Subscriber action_sub_;
-  ros::Subscriber obstacle_sub_;
+  ros::Subscriber clear_sub_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer watchdog_;
   ros::Timer diagnostics_timer_;

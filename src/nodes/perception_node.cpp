@@ -18,6 +18,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
+#include <std_msgs/Float32.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -29,10 +30,13 @@ class PerceptionNode {
       : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PerceptionNodeParams>>(
             ros::NodeHandle("~"))},
         projector_{params_.navigator.perception.local_occupancy},
+        map_projector_{params_.navigator.perception.local_map},
         scans_{"scan", params_.own.scan_timeout_s} {
     local_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_occupancy", 1);
+    map_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_map", 1);
     grid_pub_ = nh_.advertise<nav_msgs::OccupancyGrid>("local_occupancy/grid", 1);
     blocked_pub_ = nh_.advertise<std_msgs::Bool>("obstacle_ahead", 1);
+    clear_pub_ = nh_.advertise<std_msgs::Float32>("clear_ahead", 1);
     scan_sub_ = nh_.subscribe("scan", 1, &PerceptionNode::on_scan, this);
     observe_sub_ = nh_.subscribe("observe", 1, &PerceptionNode::on_observe, this);
     diagnostics_.setHardwareID("none");
@@ -57,20 +61,27 @@ class PerceptionNode {
     }
     scans_.received(scan.header.stamp);
     cmn::BeamCount beams;
-    const cmn::LocalOccupancy local =
-        projector_.project(cmn::scan_of(scan, *T_robot_sensor), &beams);
+    const cmn::RangeScan ranges = cmn::scan_of(scan, *T_robot_sensor);
+    const cmn::LocalOccupancy local = projector_.project(ranges, &beams);
     if (beams.used == 0) {
       scans_.dropped("no range of the scan is usable");
       return;
     }
+    std_msgs::Float32 clear;
+    clear.data =
+        static_cast<float>(cmn::clear_ahead_m(ranges, local, params_.navigator.perception.guard));
+    clear_pub_.publish(clear);
     std_msgs::Bool blocked;
-    blocked.data = cmn::is_blocked_ahead(local, params_.navigator.perception.guard);
+    blocked.data = static_cast<std::uint8_t>(clear.data < params_.navigator.planning.step_m);
     blocked_pub_.publish(blocked);
 
     std_msgs::Header header = scan.header;
     header.frame_id = params_.frames.base;
     last_ = cmn::message_of(local, header);
+    last_->clear_ahead = clear.data;
     local_pub_.publish(*last_);
+    last_ranges_ = ranges;
+    publish_local_map();
     if (grid_pub_.getNumSubscribers() > 0) {
       publish_grid(local, header);
     }
@@ -80,6 +91,17 @@ class PerceptionNode {
   void on_observe(const std_msgs::Empty& /*request*/) {
     if (last_) {
       local_pub_.publish(*last_);
+      publish_local_map();
+    }
+  }
+
+  /// Of the last scan.
+  void publish_local_map() {
+    if (map_pub_.getNumSubscribers() > 0) {
+      coarse_map_nav::LocalOccupancy map =
+          cmn::message_of(map_projector_.project(last_ranges_), last_->header);
+      map.clear_ahead = last_->clear_ahead;
+      map_pub_.publish(map);
     }
   }
 
@@ -99,13 +121,17 @@ class PerceptionNode {
   ros::NodeHandle nh_;
   cmn::NodeParams<cmn::PerceptionNodeParams> params_;
   cmn::RangeProjector projector_;
+  cmn::RangeProjector map_projector_;
   cmn::InputMonitor scans_;
   std::optional<coarse_map_nav::LocalOccupancy> last_;
+  cmn::RangeScan last_ranges_;  ///< of which it was made
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   ros::Publisher local_pub_;
   ros::Publisher grid_pub_;
+  ros::Publisher map_pub_;
   ros::Publisher blocked_pub_;
+  ros::Publisher clear_pub_;
   ros::Subscriber scan_sub_;
   ros::Subscriber observe_sub_;
   diagnostic_updater::Updater diagnostics_;

@@ -5,22 +5,20 @@
 
 #include "coarse_map_nav/Belief.h"
 #include "coarse_map_nav/DiscreteAction.h"
-#include "coarse_map_nav/LocalOccupancy.h"
 #include "coarse_map_nav/MotionResult.h"
-#include "coarse_map_nav/NavigationStatus.h"
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/goal_server.hpp"
+#include "coarse_map_nav/ros/look_memory.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/ros/plan_publisher.hpp"
 
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include <nav_msgs/OccupancyGrid.h>
-#include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
 namespace {
@@ -33,13 +31,13 @@ class PlannerNode {
       : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PlannerNodeParams>>(
             ros::NodeHandle("~"))},
         beliefs_{"belief", 0.0},
+        plan_{nh_, params_.frames.map},
+        looks_{nh_, params_.navigator.planning.needs_local_map(),
+               [this] { return awaits_local_map_ ? decide(*belief_) : void(); }},
         goals_{nh_, params_.frames.map, [this](cmn::Point2 goal) { return begin(goal); },
                [this] { cancel(); }} {
     action_pub_ = nh_.advertise<coarse_map_nav::DiscreteAction>("action", 1);
-    path_pub_ = nh_.advertise<nav_msgs::Path>("path", 1, true);
-    status_pub_ = nh_.advertise<coarse_map_nav::NavigationStatus>("status", 5, true);
     map_sub_ = nh_.subscribe("map", 1, &PlannerNode::on_map, this);
-    occupancy_sub_ = nh_.subscribe("local_occupancy", 5, &PlannerNode::on_occupancy, this);
     result_sub_ = nh_.subscribe("motion_result", 5, &PlannerNode::on_result, this);
     belief_sub_ = nh_.subscribe("belief", 1, &PlannerNode::on_belief, this);
     diagnostics_.setHardwareID("none");
@@ -76,13 +74,6 @@ class PlannerNode {
     return reason;
   }
 
-  void on_occupancy(const coarse_map_nav::LocalOccupancy& msg) {
-    std::string why;
-    const auto seen = cmn::local_occupancy_of(msg, why);
-    guard_.remember(msg.header.stamp.toSec(),
-                    !seen || cmn::is_blocked_ahead(*seen, params_.navigator.perception.guard));
-  }
-
   void on_result(const coarse_map_nav::MotionResult& result) {
     if (planner_ && result.id == action_.id) {
       planner_->action_ended(static_cast<cmn::MotionOutcome>(result.outcome));
@@ -104,13 +95,17 @@ class PlannerNode {
       beliefs_.dropped(why);
       return;
     }
-    const cmn::Decision decision = planner_->decide(
-        {received->belief, received->estimate, cmn::middle_of(received->estimate.cell),
-         cmn::yaw(received->estimate.heading), static_cast<double>(msg.confidence),
-         msg.converged != 0},
-        guard_.was_blocked(msg.header.stamp.toSec()));
-    const auto path = planner_->path_from(received->estimate.cell);
-    path_pub_.publish(cmn::message_of(path, *map_, msg.header));
+    std::optional<cmn::LocalOccupancy> local_map;
+    if (looks_.needs_local_map() && !(local_map = looks_.local_map(msg.header.stamp, why))) {
+      await_local_map(why);
+      return;
+    }
+    awaits_local_map_ = false;
+    const cmn::Decision decision =
+        planner_->decide(received->localization(),
+                         looks_.was_blocked(msg.header.stamp, params_.navigator.planning.step_m),
+                         local_map ? &*local_map : nullptr);
+    plan_.publish_plan(*planner_, received->estimate.cell, *map_, msg.header);
     if (decision.state == State::kReached || decision.state == State::kFailed) {
       end(decision);
       goals_.finish(decision.state == State::kReached, decision.text);
@@ -122,6 +117,16 @@ class PlannerNode {
     goals_.publish_feedback(msg.header, msg.estimate);
   }
 
+  /// Orders nothing before the robot knows what is around it.
+  void await_local_map(const std::string& why) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "waiting for local_map: " << why);
+    if (!awaits_local_map_) {
+      awaits_local_map_ = true;
+      looks_.ask();
+      publish_status(cmn::resting(State::kLocalizing, "waiting for local_map: " + why));
+    }
+  }
+
   void cancel() {
     if (planner_) {
       end(cmn::resting(State::kStopped, "the goal was cancelled or refused"));
@@ -130,7 +135,7 @@ class PlannerNode {
 
   void end(const cmn::Decision& decision) {
     publish_status(decision);
-    is_under_way_ = false;
+    is_under_way_ = awaits_local_map_ = false;
     planner_->cancel_goal();
     action_ = coarse_map_nav::DiscreteAction{};  // STOP; no belief is awaited any more
     action_pub_.publish(action_);
@@ -142,8 +147,10 @@ class PlannerNode {
   }
 
   void on_timer(const ros::TimerEvent& /*event*/) {
-    if (is_under_way_ && action_.id != 0 &&
-        std::abs((ros::Time::now() - sent_).toSec()) > params_.own.resend_after_s) {
+    if (awaits_local_map_) {
+      looks_.ask();
+    } else if (is_under_way_ && action_.id != 0 &&
+               std::abs((ros::Time::now() - sent_).toSec()) > params_.own.resend_after_s) {
       ROS_WARN_STREAM("no belief after action " << action_.id << " yet: sending it again");
       send();
     }
@@ -151,12 +158,8 @@ class PlannerNode {
   }
 
   void publish_status(const cmn::Decision& decision) {
-    std_msgs::Header header;
-    header.stamp = ros::Time::now();
-    header.frame_id = params_.frames.map;
     const double confidence = belief_ ? static_cast<double>(belief_->confidence) : 0.0;
-    status_pub_.publish(
-        cmn::message_of(decision, confidence, planner_ ? planner_->actions() : 0, header));
+    plan_.publish_status(decision, confidence, planner_ ? planner_->actions() : 0);
   }
 
   ros::NodeHandle nh_;
@@ -165,16 +168,15 @@ class PlannerNode {
   std::optional<cmn::CoarseMap> map_;
   std::optional<cmn::Planner> planner_;
   coarse_map_nav::Belief::ConstPtr belief_;
-  cmn::GuardMemory guard_;
+  bool awaits_local_map_ = false;  ///< to decide on belief_
   coarse_map_nav::DiscreteAction action_;
   bool is_under_way_ = false;
   ros::Time sent_;
   ros::Publisher action_pub_;
-  ros::Publisher path_pub_;
-  ros::Publisher status_pub_;
+  cmn::PlanPublisher plan_;
+  cmn::LookMemory looks_;
   cmn::GoalServer goals_;
   ros::Subscriber map_sub_;
-  ros::Subscriber occupancy_sub_;
   ros::Subscriber result_sub_;
   ros::Subscriber belief_sub_;
   diagnostic_updater::Updater diagnostics_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace cmn {
 
@@ -23,22 +25,30 @@ double occupied_share_ahead(const LocalOccupancy& seen, double side_m) {
   return cells == 0 ? 0.0 : static_cast<double>(occupied) / cells;
 }
 
-bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params) {
-  return occupied_share_ahead(seen, params.side_m) > params.occupied_share;
-}
-
-void GuardMemory::remember(double stamp_s, bool is_blocked) {
-  // What is of a later time was seen before time went back.
-  blocked_at_.erase(blocked_at_.upper_bound(stamp_s), blocked_at_.end());
-  blocked_at_[stamp_s] = is_blocked;
-  if (blocked_at_.size() > kObservations) {
-    blocked_at_.erase(blocked_at_.begin());
+double free_way_m(const RangeScan& scan, double radius_m) {
+  double way_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (!(range_m >= scan.range_min_m && range_m <= scan.range_max_m)) {
+      continue;
+    }
+    const double bearing = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
+    const Point2 p = scan.T_robot_sensor * turned(Point2{range_m, 0.0}, bearing);
+    if (p.x > 0.0 && std::abs(p.y) < radius_m) {
+      way_m = std::min(way_m, p.x - std::sqrt(radius_m * radius_m - p.y * p.y));
+    }
   }
+  return std::max(0.0, way_m);
 }
 
-bool GuardMemory::was_blocked(double stamp_s) const {
-  const auto found = blocked_at_.find(stamp_s);
-  return found == blocked_at_.end() || found->second;
+double clear_ahead_m(const RangeScan& scan, const LocalOccupancy& seen,
+                     const ObstacleGuardParams& params) {
+  if (params.type == "footprint") {
+    return free_way_m(scan, params.radius_m);
+  }
+  const bool is_blocked =
+      params.type == "block" && occupied_share_ahead(seen, params.side_m) > params.occupied_share;
+  return is_blocked ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace cmn

@@ -158,7 +158,7 @@ TEST(MotionProperty, AnyStartYawEndsOnTheAxisThatIsCountedFromTheNearestOne) {
     controller.start(1, {type, 0.0}, now);
     std::optional<MotionResult> result;
     while (!result && now.stamp_s < 20.0) {
-      const MotionStep step = controller.step(now, false, false);
+      const MotionStep step = controller.step(now, kNothingAhead, false);
       result = step.result;
       now.stamp_s += 0.02;
       now.T_odom_robot.yaw = wrap_angle(now.T_odom_robot.yaw + 0.02 * step.command.angular_radps);

@@ -17,6 +17,7 @@
 #include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
+#include <std_msgs/Float32.h>
 #include <topic_tools/shape_shifter.h>
 
 namespace cmn {
@@ -26,6 +27,7 @@ using coarse_map_nav::DiscreteAction;
 using coarse_map_nav::MotionResult;
 
 constexpr double kTick_s = 0.02;
+constexpr float kFree = std::numeric_limits<float>::infinity();
 
 /// A motion controller, the base that obeys it and the clock of both.
 ///
@@ -66,9 +68,9 @@ class MotionControllerTest : public testing::Test {
     time_s_ += kTick_s;
     send_clock();
     if (is_guard_awake_) {
-      std_msgs::Bool blocked;
-      blocked.data = static_cast<std::uint8_t>(is_blocked_);
-      obstacles_.publish(blocked);
+      std_msgs::Float32 clear;
+      clear.data = clear_ahead_m_;
+      obstacles_.publish(clear);
     }
     if (is_odometry_awake_) {
       const std::size_t before = commands_.size();
@@ -106,7 +108,7 @@ class MotionControllerTest : public testing::Test {
     ASSERT_TRUE(tick_until([&] {
       time_s_ += 0.1;
       return (!is_odometry_awake_ || is_heard("odom")) &&
-             (!is_guard_awake_ || is_heard("obstacle_ahead"));
+             (!is_guard_awake_ || is_heard("clear_ahead"));
     })) << node_.output();
   }
 
@@ -141,13 +143,13 @@ class MotionControllerTest : public testing::Test {
   Pose2 pose_{1.0, 2.0, 0.0};
   bool is_odometry_awake_ = true;
   bool is_guard_awake_ = true;
-  bool is_blocked_ = false;
+  float clear_ahead_m_ = kFree;
   double top_speed_mps_ = 0.0;
   ros::NodeHandle nh_;
   ros::Publisher clocks_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 1);
   ros::Publisher odoms_ = nh_.advertise<nav_msgs::Odometry>("odom", 10);
   ros::Publisher actions_ = nh_.advertise<DiscreteAction>("action", 10);
-  ros::Publisher obstacles_ = nh_.advertise<std_msgs::Bool>("obstacle_ahead", 10);
+  ros::Publisher obstacles_ = nh_.advertise<std_msgs::Float32>("clear_ahead", 10);
   Inbox<geometry_msgs::Twist> commands_{"cmd_vel"};
   Inbox<MotionResult> results_{"motion_result"};
   Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
@@ -262,7 +264,7 @@ TEST_F(MotionControllerTest, StopsWhenTheGuardFallsSilentOrSeesAnObstacleOnTheWa
   is_guard_awake_ = true;
   be_heard();
   start(action(2, DiscreteAction::MOVE_FORWARD, 5.0));
-  is_blocked_ = true;
+  clear_ahead_m_ = 0.0F;
   ASSERT_TRUE(tick_until([this] { return has_result(2); }, 3.0)) << node_.output();
   EXPECT_EQ(results_.back().outcome, MotionResult::BLOCKED);
   EXPECT_FALSE(is_moving());

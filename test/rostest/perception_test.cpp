@@ -202,5 +202,29 @@ TEST_F(Perception, ObserveBringsTheLastObservationOnceMore) {
   EXPECT_EQ(local_.back().occupancy, before.occupancy);
 }
 
+TEST_F(Perception, TheLocalMapIsOfTheSameLookWiderAndOnlyMadeForWhoListens) {
+  mount_laser();
+  Inbox<coarse_map_nav::LocalOccupancy> maps{"local_map"};
+  ASSERT_TRUE(wait_for([&] { return maps.is_connected(); }));
+  const auto is_answered = [&](const sensor_msgs::LaserScan& scan) {
+    return !maps.empty() && maps.back().header.stamp == scan.header.stamp;
+  };
+  // The subscription may reach the node after the first scans.
+  sensor_msgs::LaserScan scan;
+  ASSERT_TRUE(wait_for([&] {
+    scan = scan_of(2.0F);
+    scans_.publish(scan);
+    return wait_for([&] { return is_answered(scan); }, 0.2);
+  })) << node_.output();
+  EXPECT_GT(maps.back().resolution * static_cast<float>(maps.back().size),
+            local_.back().resolution * static_cast<float>(local_.back().size));
+  std::string why;
+  EXPECT_TRUE(local_occupancy_of(maps.back(), why)) << why;
+  maps.clear();
+  observe_.publish(std_msgs::Empty{});
+  ASSERT_TRUE(wait_for([&] { return !maps.empty(); })) << "it is repeated on request";
+  EXPECT_EQ(maps.back().header.stamp, scan.header.stamp);
+}
+
 }  // namespace
 }  // namespace cmn

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ascii_map.hpp"
 #include "ros_graph.hpp"
@@ -18,6 +19,7 @@
 #include <gtest/gtest.h>
 #include <move_base_msgs/MoveBaseAction.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <std_msgs/Empty.h>
 
 namespace cmn {
 namespace {
@@ -53,10 +55,12 @@ class PlannerTest : public testing::Test {
     ros::param::del("/goal_under_way");
   }
 
+  virtual std::vector<std::string> parameters() const {
+    return {"_resend_after_s:=0.5", "_planning/policy:=path", "_planning/step_m:=0.5"};
+  }
+
   void start_planner() {
-    planner_ = std::make_unique<NodeProcess>(
-        "planner", std::vector<std::string>{"_resend_after_s:=0.5", "_planning/policy:=path",
-                                            "_planning/step_m:=0.5"});
+    planner_ = std::make_unique<NodeProcess>("planner", parameters());
     ASSERT_TRUE(wait_for([this] {
       return maps_.getNumSubscribers() > 0 && beliefs_.getNumSubscribers() > 0 &&
              occupancies_.getNumSubscribers() > 0 && results_.getNumSubscribers() > 0 &&
@@ -78,14 +82,11 @@ class PlannerTest : public testing::Test {
     Belief belief{drawing().width(), drawing().height()};
     belief.set_weight(Heading::kEast, cell, 1.0);
     EXPECT_TRUE(belief.normalise());
-    coarse_map_nav::Belief message = message_of(belief, drawing());
+    coarse_map_nav::Belief message = message_of(
+        {belief, {Heading::kEast, cell, 1.0}, middle_of(cell), 0.0, 1.0, true}, drawing());
     message.header.frame_id = "map";
     message.header.stamp = ros::Time::now();
-    message.confidence = 1.0F;
-    message.converged = 1;
     message.action_id = action_id;
-    const Point2 p = drawing().center_of(cell);
-    message.estimate = pose_message({p.x, p.y, 0.0});
     return message;
   }
   void believe(Cell cell, std::uint32_t action_id) {
@@ -307,6 +308,70 @@ TEST_F(PlannerTest, AnotherMapOnTheWayEndsAJourneyWhoseGoalItDoesNotHave) {
   ASSERT_TRUE(wait_for([this] { return has_ended(); })) << planner_->output();
   EXPECT_EQ(client_.getState(), ClientState::ABORTED);
   ASSERT_TRUE(wait_for([this] { return actions_.back().type == DiscreteAction::STOP; }));
+}
+
+/// Ours: decides on the belief and on what is seen around the robot together.
+class BeliefPlannerTest : public PlannerTest {
+ protected:
+  std::vector<std::string> parameters() const override {
+    return {"_resend_after_s:=0.5", "_planning/policy:=belief", "_planning/step_m:=0.15"};
+  }
+  void SetUp() override {
+    PlannerTest::SetUp();
+    ASSERT_TRUE(wait_for([this] {
+      return local_maps_.getNumSubscribers() > 0 && observes_.is_connected() &&
+             repaired_.is_connected();
+    })) << planner_->output();
+  }
+  void see_open_ground(const ros::Time& stamp) {
+    LocalOccupancy local{80, 0.05};
+    local.occupancy.assign(local.cell_count(), 0.0F);
+    local.confidence.assign(local.cell_count(), 1.0F);
+    std_msgs::Header header;
+    header.stamp = stamp;
+    header.frame_id = "base_link";
+    local_maps_.publish(message_of(local, header));
+  }
+  bool has_order() const {
+    return !actions_.empty() && actions_.back().type != DiscreteAction::STOP;
+  }
+
+  ros::Publisher local_maps_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_map", 5);
+  Inbox<std_msgs::Empty> observes_{"observe"};
+  Inbox<nav_msgs::OccupancyGrid> repaired_{"repaired_map"};
+};
+
+TEST_F(BeliefPlannerTest, OrdersNothingBeforeItKnowsWhatIsAroundIt) {
+  send_map();
+  coarse_map_nav::Belief belief = belief_at(kStart, 0);
+  belief.axes_yaw = 0.25F;
+  see_open_ground(belief.header.stamp - ros::Duration(0.1));  // of before the belief: stale
+  beliefs_.publish(belief);
+  client_.sendGoal(goal_at(kGoal));
+  ASSERT_TRUE(wait_for([this] {
+    return statuses_.back().text.find("waiting for local_map") != std::string::npos &&
+           observes_.size() >= 2;
+  })) << planner_->output();
+  EXPECT_FALSE(has_order());
+  EXPECT_NE(planner_->output().find("waiting for local_map"), std::string::npos);
+  see_open_ground(belief.header.stamp);
+  expect_order(1);
+  EXPECT_EQ(actions_.back().axes_yaw, 0.25F) << "it goes along the axes of the belief";
+  ASSERT_TRUE(wait_for([this] { return !repaired_.empty(); })) << "what it plans on is shown";
+  EXPECT_GT(repaired_.back().info.width, 0U);
+}
+
+TEST_F(BeliefPlannerTest, TakesALaterLookWhenThatOfTheBeliefWasLost) {
+  send_map();
+  const coarse_map_nav::Belief belief = belief_at(kStart, 0);
+  beliefs_.publish(belief);
+  client_.sendGoal(goal_at(kGoal));
+  ASSERT_TRUE(wait_for([this] { return !observes_.empty(); })) << planner_->output();
+  see_open_ground(belief.header.stamp + ros::Duration(3.0));
+  expect_order(1);
+  actions_.clear();
+  client_.cancelGoal();
+  ASSERT_TRUE(wait_for([this] { return has_ended(); }));
 }
 
 }  // namespace

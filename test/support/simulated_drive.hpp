@@ -8,6 +8,7 @@
 #include "coarse_map_nav/simulation/simulator.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -20,6 +21,8 @@ inline World empty_hall(double side_m) {
   return World{CoarseMap{Grid<std::uint8_t>{cells, cells}, 1.0}};
 }
 
+constexpr double kNothingAhead = std::numeric_limits<double>::infinity();
+
 /// 50 odometry samples a second, as the Kobuki sends them.
 class SimulatedDrive {
  public:
@@ -29,9 +32,9 @@ class SimulatedDrive {
       : simulator_{simulator}, controller_{params} {}
 
   /// One period. Every command is kept.
-  std::optional<MotionResult> tick(bool obstacle_ahead = false) {
+  std::optional<MotionResult> tick(double clear_ahead_m = kNothingAhead) {
     const MotionStep step =
-        controller_.step(simulator_.odometry(), obstacle_ahead, simulator_.bumped());
+        controller_.step(simulator_.odometry(), clear_ahead_m, simulator_.bumped());
     commands.push_back(step.command);
     simulator_.advance(kPeriod_s, step.command);
     return step.result;

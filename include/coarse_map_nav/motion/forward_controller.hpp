@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A straight step along one axis of the odometry frame.
+/// A straight step along one axis.
 #pragma once
 
 #include "coarse_map_nav/data/geometry.hpp"

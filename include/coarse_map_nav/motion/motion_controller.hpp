@@ -24,17 +24,19 @@ struct MotionStep {
 };
 
 /// False for what nobody can carry out: a type that is none of ActionType (a message may hold any
-/// number), or a forward distance that is negative or not finite.
+/// number), a forward distance that is negative or not finite, axes that are no angle.
 bool is_executable(const Action& action);
 
 /// Carries out one action at a time, driven by odometry samples; no clock of its own.
 ///
-/// A pivot ends on the *exact* next axis of the odometry frame, counted from the axis nearest to
-/// the yaw at its start. A forward step goes along the nearest axis; off that axis by more than the
-/// tolerance, it turns on the spot first. An obstacle ahead or a collision ends a forward step as
-/// kBlocked, with zero velocity in the same step and no motion at all if it was there from the
-/// start; neither stops a pivot, nor a forward step that has come to its end. All other ends brake
-/// within the acceleration limits.
+/// A pivot ends on the *exact* next axis, counted from the axis nearest to the yaw at its start. A
+/// forward step goes along the nearest axis; off that axis by more than the tolerance, it turns on
+/// the spot first. The axes are those of Action::axes_yaw_rad: the odometry's own (Robb), or, where
+/// the odometry drifts, what somebody has found the building's to be in it. A way ahead that is
+/// clear for less than the rest of a forward step, or a collision, ends it as kBlocked, with zero
+/// velocity in the same step and no motion at all if it was so from the start; neither stops a
+/// pivot, nor a forward step that has come to its end. All other ends brake within the acceleration
+/// limits.
 ///
 /// An action ends only when the base stands still (see RestDetector) and zero has been commanded
 /// for as long, so the next one starts from rest, and results chain without a gap: what a
@@ -55,7 +57,9 @@ class MotionController {
   std::optional<MotionResult> start(std::uint32_t id, const Action& action,
                                     const OdometrySample& now);
   /// The next command; call it for every odometry sample. Zero when there is no action.
-  MotionStep step(const OdometrySample& now, bool obstacle_ahead, bool collided);
+  /// `clear_ahead_m`: so far the way ahead is clear; 0: blocked, infinite: free.
+  MotionStep step(const OdometrySample& now, double clear_ahead_m, bool collided);
+  MotionStep step(const OdometrySample& now, bool obstacle_ahead, bool collided) = delete;
   /// Call with the current time when no odometry came: past odometry_timeout_s the action ends as
   /// kTimedOut with what was driven up to the last sample. Send zero velocity then. An action that
   /// waited is ended by the next call.

@@ -12,8 +12,8 @@ namespace cmn {
 
 /// Turns to `target_yaw_rad` of the odometry frame, the shorter way round.
 ///
-/// Robb ("Better Pivot Controller"): the target is a cardinal axis of the odometry frame, not the
-/// start yaw + pi/2, so that the errors of single pivots do not add up.
+/// Robb ("Better Pivot Controller"): the target is an axis that stays, not the start yaw + pi/2, so
+/// that the errors of single pivots do not add up.
 class PivotController {
  public:
   PivotController(const MotionParams& params, double target_yaw_rad);

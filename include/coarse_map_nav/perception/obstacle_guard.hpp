@@ -1,26 +1,33 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// May the robot move forward?
+/// How far may the robot move forward?
 #pragma once
 
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/perception/range_projection.hpp"
 
-#include <cstddef>
-#include <map>
+#include <string>
 
 namespace cmn {
 
 struct ObstacleGuardParams {
+  std::string type = "block";
   double side_m = 1.28;          ///< Robb: of the papers' local occupancy
   double occupied_share = 0.25;  ///< Robb: "more than 25 % occupied"
+  double radius_m = 0.17;        ///< Kobuki: 0.18
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
+    visit("type", self.type, OneOf{{"none", "block", "footprint"}},
+          "block: no step forward while the block ahead is occupied (Robb); footprint: none that "
+          "takes the robot into what is seen (ours); none: any");
     visit("side_m", self.side_m, Between{0.3, 5.0},
-          "[m] side of the square about the robot whose front block is watched");
+          "[m] block: side of the square about the robot whose front block is watched");
     visit("occupied_share", self.occupied_share, Between{0.0, 1.0},
-          "[-] the way ahead is blocked when more than this share of the front block is occupied");
+          "[-] block: the way ahead is blocked when more than this share of it is occupied");
+    visit("radius_m", self.radius_m, Between{0.02, 2.0},
+          "[m] footprint: of the disc that must not meet anything, a little less than the robot's");
   }
 };
 
@@ -32,19 +39,14 @@ struct ObstacleGuardParams {
 /// still. Occupied beyond a hit does count (Robb: everything beyond is occupied).
 double occupied_share_ahead(const LocalOccupancy& seen, double side_m);
 
-/// Robb: the front block is more than `occupied_share` occupied.
-bool is_blocked_ahead(const LocalOccupancy& seen, const ObstacleGuardParams& params);
+/// How far a disc of `radius_m` about the robot's middle can go straight ahead until it meets a
+/// point that the scan has hit: 0 from where it would at once, infinite when it never would. What
+/// lies behind the middle, and what it passes at `radius_m` or more, is not in its way.
+double free_way_m(const RangeScan& scan, double radius_m);
 
-/// The guard's word on the last observations, for a belief that was made from one of them.
-class GuardMemory {
- public:
-  void remember(double stamp_s, bool is_blocked);
-  /// What was said of the observation of exactly this time; one not remembered is not safe: true.
-  bool was_blocked(double stamp_s) const;
-
- private:
-  static constexpr std::size_t kObservations = 30;  ///< 3 s of a LiDAR
-  std::map<double, bool> blocked_at_;
-};
+/// What the guard allows: no step forward that is longer [m]. 0 or infinite by type "block" (Robb)
+/// and infinite by "none". `seen` was made from `scan`.
+double clear_ahead_m(const RangeScan& scan, const LocalOccupancy& seen,
+                     const ObstacleGuardParams& params);
 
 }  // namespace cmn

@@ -105,7 +105,7 @@ struct MotionNodeParams {
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("obstacle_timeout_s", self.obstacle_timeout_s, Between{0.05, 10.0},
-          "[s] with obstacle_ahead silent for longer the robot does not move forward");
+          "[s] with clear_ahead silent for longer the robot does not move forward");
   }
 };
 

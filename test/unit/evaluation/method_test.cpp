@@ -115,7 +115,7 @@ TEST(Method, CmnIsThatOfTheReleasedParameters) {
   EXPECT_EQ(params.planning.tree_depth, 2);
   EXPECT_EQ(params.planning.step_m, 0.15);
   EXPECT_EQ(params.planning.max_actions, 500);
-  EXPECT_EQ(params.perception.guard.occupied_share, 1.0);  // none
+  EXPECT_EQ(params.perception.guard.type, "none");
 }
 
 TEST(Method, AllBaselinesHaveCmnsPlannerWhereThePaperHasIt) {
@@ -125,7 +125,7 @@ TEST(Method, AllBaselinesHaveCmnsPlannerWhereThePaperHasIt) {
         << name;
     const NavigatorParams params = method_params(find_method(name), find_task("CL"), kConfig);
     EXPECT_EQ(params.planning.policy, "lattice") << name;
-    EXPECT_LT(params.perception.guard.occupied_share, 1.0) << name;
+    EXPECT_NE(params.perception.guard.type, "none") << name;
   }
 }
 

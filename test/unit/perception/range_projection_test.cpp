@@ -140,37 +140,45 @@ TEST(ObstacleGuard, IsBlockedByAWallInTheFrontBlockOnly) {
         walled.ranges_m[i] = range_m / static_cast<float>(std::cos(off));
       }
     }
-    return projector.project(walled);
+    return clear_ahead_m(walled, projector.project(walled), ObstacleGuardParams{}) == 0.0;
   };
-  const ObstacleGuardParams params;
-  EXPECT_TRUE(is_blocked_ahead(wall_at(0.0, 0.4F), params));
-  EXPECT_FALSE(is_blocked_ahead(wall_at(0.0, 0.62F), params));
-  EXPECT_FALSE(is_blocked_ahead(wall_at(kPi / 2.0, 0.4F), params));
-  EXPECT_FALSE(is_blocked_ahead(wall_at(kPi, 0.4F), params));
+  EXPECT_TRUE(wall_at(0.0, 0.4F));
+  EXPECT_FALSE(wall_at(0.0, 0.62F));
+  EXPECT_FALSE(wall_at(kPi / 2.0, 0.4F));
+  EXPECT_FALSE(wall_at(kPi, 0.4F));
   // 25 % of the block are 10.7 of its 42.7 cm: a wall nearer than 0.64 - 0.107 m blocks.
-  EXPECT_TRUE(is_blocked_ahead(wall_at(0.0, 0.51F), params));
-  EXPECT_FALSE(is_blocked_ahead(wall_at(0.0, 0.56F), params));
+  EXPECT_TRUE(wall_at(0.0, 0.51F));
+  EXPECT_FALSE(wall_at(0.0, 0.56F));
 }
 
-TEST(GuardMemory, KnowsWhatWasSaidAndTakesTheRestForBlocked) {
-  GuardMemory memory;
-  memory.remember(10.0, false);
-  memory.remember(10.1, true);
-  EXPECT_FALSE(memory.was_blocked(10.0));
-  EXPECT_TRUE(memory.was_blocked(10.1));
-  EXPECT_TRUE(memory.was_blocked(9.9));
-  for (int i = 0; i < 30; ++i) {
-    memory.remember(11.0 + 0.1 * i, false);
+TEST(ObstacleGuard, TheFootprintMeetsWhatLiesInTheWayOfTheDiscAndNothingElse) {
+  RangeScan scan = full_circle(0.0F, 720);
+  ObstacleGuardParams params;
+  params.type = "footprint";
+  params.radius_m = 0.2;
+  const auto clear_with = [&](Point2 p_robot) {  // one point in sight
+    RangeScan seen = scan;
+    seen.range_min_m = 0.05;
+    const Point2 p = inverse(seen.T_robot_sensor) * p_robot;
+    const double step = seen.angle_increment_rad;
+    const auto beam = static_cast<std::size_t>(
+        std::lround((wrap_angle(std::atan2(p.y, p.x)) - seen.angle_min_rad) / step));
+    seen.ranges_m.at(beam % seen.ranges_m.size()) = static_cast<float>(norm(p));
+    return clear_ahead_m(seen, LocalOccupancy{3, 0.4}, params);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Pose2& mount : {Pose2{}, Pose2{0.1, -0.05, 2.0}}) {
+    SCOPED_TRACE(mount.yaw);
+    scan.T_robot_sensor = mount;
+    EXPECT_NEAR(clear_with({0.5, 0.0}), 0.3, 0.005);
+    EXPECT_NEAR(clear_with({0.5, 0.12}), 0.5 - 0.16, 0.01) << "a door post touches aside";
+    EXPECT_EQ(clear_with({0.5, 0.22}), infinity) << "it is passed";
+    EXPECT_EQ(clear_with({0.5, -0.22}), infinity);
+    EXPECT_EQ(clear_with({-0.3, 0.0}), infinity) << "it lies behind";
+    EXPECT_EQ(clear_with({0.18, 0.02}), 0.0) << "it touches";
   }
-  EXPECT_TRUE(memory.was_blocked(10.0)) << "forgotten";
-}
-
-TEST(GuardMemory, ForgetsTheFutureWhenTimeGoesBack) {
-  GuardMemory memory;
-  memory.remember(10.0, false);
-  memory.remember(5.0, false);
-  EXPECT_TRUE(memory.was_blocked(10.0));
-  EXPECT_FALSE(memory.was_blocked(5.0));
+  params.type = "none";
+  EXPECT_EQ(clear_with({0.3, 0.0}), infinity);
 }
 
 }  // namespace
