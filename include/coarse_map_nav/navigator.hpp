@@ -27,6 +27,8 @@ class Navigator {
       : params_{params},
         projector_{params.perception.local_occupancy},
         local_map_projector_{params.perception.local_map},
+        rolling_seen_{params.perception.rolling},
+        rolling_local_map_{params.perception.rolling},
         localizer_{std::move(localizer)},
         planner_{map, params.planning} {}
 
@@ -46,9 +48,13 @@ class Navigator {
   Decision step(const RangeScan& scan, LocalOccupancy seen, const Pose2& T_odom_robot,
                 MotionOutcome last_outcome) {
     planner_.action_ended(last_outcome);
-    seen_ = std::move(seen);
+    const bool is_rolling = params_.perception.accumulate == "rolling";
+    seen_ = is_rolling ? rolling_seen_.fuse(seen, T_odom_robot) : std::move(seen);
     if (params_.planning.needs_local_map()) {
       local_map_ = local_map_projector_.project(scan);
+      if (is_rolling) {
+        local_map_ = rolling_local_map_.fuse(local_map_, T_odom_robot);
+      }
     }
     localizer_->update(seen_, T_odom_robot);
     clear_ahead_m_ = cmn::clear_ahead_m(scan, seen_, params_.perception.guard);
@@ -59,6 +65,8 @@ class Navigator {
   NavigatorParams params_;
   RangeProjector projector_;
   RangeProjector local_map_projector_;
+  RollingMap rolling_seen_;
+  RollingMap rolling_local_map_;
   std::unique_ptr<Localizer> localizer_;
   Planner planner_;
   LocalOccupancy seen_;

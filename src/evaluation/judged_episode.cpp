@@ -145,7 +145,8 @@ class Judge {
     }
   }
   void look_at(const Localization& at, const CoarseMap& map, const Pose2& T_map_true) {
-    if (at.confidence < params_.converged_confidence || row_.converged_actions >= 0) {
+    if (!at.is_converged || at.confidence < params_.converged_confidence ||
+        row_.converged_actions >= 0) {
       return;
     }
     row_.converged_actions = row_.actions;

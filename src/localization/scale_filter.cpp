@@ -17,6 +17,8 @@ namespace {
 /// Of the greatest weight; less is dropped, and with it the work on it.
 constexpr float kLeastShare = 1e-9F;
 /// Free rays are probed at these shares of their range.
+/// Share of a whole new look in the running mean of the fit.
+constexpr double kFitGain = 0.3;
 constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
 
 Cell rounded(Point2 p) {
@@ -72,42 +74,66 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
             : params.least_scale * std::pow(params.greatest_scale / params.least_scale, share);
     sheets_.push_back(std::move(sheet));
   }
+  for (int error = -255; error <= 255; ++error) {
+    const double share = code_.step() * error / params.range_sigma;
+    const double match = std::exp(-0.5 * share * share);
+    // Shorter than expected: clutter; and where nothing was hit, all that one can say.
+    const double hit = match + (error < 0 ? params.range_short : 0.0);
+    const double free = error < 0 ? 1.0 + params.range_short : match;
+    log_of_hit_.push_back(static_cast<float>(std::log(hit + params.range_random)));
+    log_of_free_.push_back(static_cast<float>(std::log(free + params.range_random)));
+  }
   scratch_.assign(belief_.padded_size(), 0.0F);
   reset();
+}
+
+double ScaleFilter::spread(const std::function<double(Heading, Cell)>& weight_of, double each) {
+  double total = 0.0;
+  for (Sheet& sheet : sheets_) {
+    const double off = std::log(sheet.scale) / params_.scale_sigma;
+    const double prior = each * std::exp(-0.5 * off * off);
+    for (const Heading heading : kHeadings) {
+      const auto layer = static_cast<std::size_t>(index(heading));
+      std::vector<float>& weight = sheet.weight[layer];
+      std::vector<std::uint32_t>& support = sheet.support[layer];
+      for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
+        const Cell c = map_.occupied().cell_at(i);
+        const std::size_t at = belief_.padded_index(c);
+        const double share = map_.is_free(c) ? 1.0 : params_.rim_penalty;
+        const auto more =
+            table_.may_stand(at) ? static_cast<float>(prior * share * weight_of(heading, c)) : 0.0F;
+        if (more > 0.0F && weight[at] == 0.0F) {
+          support.push_back(static_cast<std::uint32_t>(at));
+        }
+        weight[at] += more;
+        total += static_cast<double>(more);
+      }
+    }
+  }
+  return total;
 }
 
 void ScaleFilter::start(const std::function<double(Heading, Cell)>& weight_of) {
   for (Sheet& sheet : sheets_) {
     sheet.offset = {};
-    for (const Heading heading : kHeadings) {
-      const auto layer = static_cast<std::size_t>(index(heading));
+    for (std::size_t layer = 0; layer < 4; ++layer) {
       sheet.weight[layer].assign(belief_.padded_size(), 0.0F);
       sheet.support[layer].clear();
-      for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
-        const Cell c = map_.occupied().cell_at(i);
-        const std::size_t at = belief_.padded_index(c);
-        const double share = map_.is_free(c) ? 1.0 : params_.rim_penalty;
-        const auto weight =
-            table_.may_stand(at) ? static_cast<float>(share * weight_of(heading, c)) : 0.0F;
-        if (weight > 0.0F) {
-          sheet.weight[layer][at] = weight;
-          sheet.support[layer].push_back(static_cast<std::uint32_t>(at));
-        }
-      }
     }
   }
   p_odom_last_.reset();
   yaw_rad_ = 0.0;
-  double total = 0.0;
-  for (const Sheet& sheet : sheets_) {
-    for (const auto& weights : sheet.weight) {
-      for (const float w : weights) {
-        total += static_cast<double>(w);
-      }
-    }
-  }
-  normalise(total);
+  has_fit_ = false;
+  normalise(spread(weight_of, 1.0));
   summarise();
+}
+
+void ScaleFilter::reopen() {
+  const double states =
+      static_cast<double>(sheets_.size()) * 4.0 * static_cast<double>(map_.free_count());
+  const double each = params_.reopen_share / std::max(1e-6, 1.0 - params_.reopen_share) / states;
+  normalise(1.0 + spread([](Heading, Cell) { return 1.0; }, each));
+  has_fit_ = false;
 }
 
 void ScaleFilter::reset() {
@@ -261,9 +287,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
     known += ray.is_known();
     hits += ray.is_hit;
   }
-  const double range_weight = known > 0 ? params_.range_weight / known : 0.0;
-  const double inverse_variance = 1.0 / (params_.range_sigma * params_.range_sigma);
-  const double cap_m = params_.reach_m * sheet.scale;
+  const auto range_weight = static_cast<float>(known > 0 ? params_.range_weight / known : 0.0);
+  const int cap = code_.coded(params_.reach_m * sheet.scale);
   for (int b = 0; b < kBearings; ++b) {
     const Ray& ray = rays[static_cast<std::size_t>(b)];
     auto& by_code = evidence.by_code[static_cast<std::size_t>(b)];
@@ -271,17 +296,11 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
       by_code.fill(0.0F);
       continue;
     }
-    const double seen = code_.exact(ray.range_m * sheet.scale);
-    const double cap = code_.exact(cap_m);
+    const int seen = code_.coded(ray.range_m * sheet.scale);
+    const std::vector<float>& of_error = ray.is_hit ? log_of_hit_ : log_of_free_;
     for (int q = 0; q < 256; ++q) {
-      const double error = code_.step() * (seen - std::min(static_cast<double>(q), cap));
-      double value = std::exp(-0.5 * error * error * inverse_variance);
-      if (error < 0.0) {
-        // Shorter than expected: clutter; and with no hit, all that one can say.
-        value = ray.is_hit ? value + params_.range_short : 1.0 + params_.range_short;
-      }
       by_code[static_cast<std::size_t>(q)] =
-          static_cast<float>(range_weight * std::log(value + params_.range_random));
+          range_weight * of_error[static_cast<std::size_t>(seen - std::min(q, cap) + 255)];
     }
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b));
     const auto offset_at = [&](double range_m) {
@@ -301,7 +320,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
   return evidence;
 }
 
-double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
+double ScaleFilter::range_log_likelihood(const Evidence& evidence, int layer,
+                                         std::uint32_t cell) const {
   const std::uint8_t* expected = table_.row(cell);
   // The look's bearing b lies at b + layer quarter turns on the drawing.
   float range = 0.0F;
@@ -312,6 +332,10 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
   for (int b = kBearings - first; b < kBearings; ++b) {
     range += evidence.by_code[static_cast<std::size_t>(b)][expected[b + first - kBearings]];
   }
+  return static_cast<double>(range);
+}
+
+double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
   const std::ptrdiff_t at = plane_index(cell);
   float hits = 0.0F;
   for (const std::ptrdiff_t offset : evidence.hits) {
@@ -321,7 +345,7 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
   for (const std::ptrdiff_t offset : evidence.frees) {
     frees += occupied_[static_cast<std::size_t>(at + offset)];
   }
-  return static_cast<double>(range) +
+  return range_log_likelihood(evidence, layer, cell) +
          params_.field_weight * static_cast<double>(hits) /
              std::max<double>(1.0, static_cast<double>(evidence.hits.size())) -
          params_.free_weight * static_cast<double>(frees) /
@@ -331,6 +355,7 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
 bool ScaleFilter::weigh(const RayProfile& rays, double news) {
   // Logs first: only their differences matter, so the greatest becomes 1.
   double greatest = -std::numeric_limits<double>::infinity();
+  double fit = 0.0;
   std::vector<std::array<std::vector<float>, 4>> logs(sheets_.size());
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     for (int layer = 0; layer < 4; ++layer) {
@@ -347,7 +372,10 @@ bool ScaleFilter::weigh(const RayProfile& rays, double news) {
             news * (log_likelihood(look, layer, i) + rim) +
             std::log(static_cast<double>(sheets_[s].weight[static_cast<std::size_t>(layer)][i]));
         log.push_back(static_cast<float>(value));
-        greatest = std::max(greatest, value);
+        if (value > greatest) {
+          greatest = value;
+          fit = range_log_likelihood(look, layer, i) / std::max(1e-9, params_.range_weight);
+        }
       }
     }
   }
@@ -373,6 +401,8 @@ bool ScaleFilter::weigh(const RayProfile& rays, double news) {
     }
   }
   normalise(total);
+  fit_ = has_fit_ ? fit_ + std::min(1.0, kFitGain * news) * (fit - fit_) : fit;
+  has_fit_ = true;
   return true;
 }
 
@@ -410,6 +440,10 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   Correction outcome = Correction::kApplied;
   if (news > 0.0 && !weigh(cast_rays(seen, T_axes_robot.yaw, params_.reach_m), news)) {
     outcome = Correction::kContradiction;
+  }
+  if (has_fit_ && fit_ < params_.reopen_fit && confidence_ >= converged_confidence_) {
+    reopen();
+    outcome = Correction::kReopened;
   }
   yaw_rad_ = T_axes_robot.yaw;
   summarise();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/belief_policy.hpp"
 
-#include "coarse_map_nav/data/random.hpp"
+#include "coarse_map_nav/planning/exploration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,11 @@ constexpr double kLeastShare = 0.02;  ///< of the best hypothesis; less is left 
 constexpr double kGreed = 2.0;
 /// What another way must be better by than the one that was chosen before.
 constexpr double kResolve_m = 1.0;
+/// Exploration: a place this far from all where the robot has been is new enough, and a metre of
+/// way is worth so much newness.
+constexpr double kNewEnough_m = 3.0;
+constexpr double kHaste = 0.3;
+constexpr std::size_t kLongestTrail = 300;
 constexpr int kMostGaps = 8;  ///< closed in one decision
 
 }  // namespace
@@ -35,6 +40,7 @@ void BeliefPolicy::reset() {
   is_stale_ = true;
   last_ = ActionType::kStop;
   target_.reset();
+  trail_.clear();
 }
 
 void BeliefPolicy::look(const Situation& situation) {
@@ -45,6 +51,13 @@ void BeliefPolicy::look(const Situation& situation) {
     map_.emplace(situation.map, repair_);
   }
   lattice_.search(*situation.local_map, !situation.is_stuck);
+  if (situation.is_stuck && !trail_.empty()) {
+    // The step that remember() took for done was not.
+    for (Cell& been : trail_) {
+      been = been + Cell{1, 0};
+    }
+    target_.reset();
+  }
   if (repair_.enabled && situation.confidence >= repair_.confidence) {
     const double yaw_rad = situation.yaw_rad;
     is_stale_ |=
@@ -144,7 +157,7 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
     }
     to_go_m = memo;
     double cost_m = states[i].cost_m + kGreed * to_go_m;
-    if (target_ && std::abs(place.x - target_->x) <= 2 && std::abs(place.y - target_->y) <= 2) {
+    if (is_near_target(place)) {
       cost_m -= kResolve_m;
     }
     if (cost_m < least_m - 1e-6) {
@@ -180,51 +193,69 @@ bool BeliefPolicy::close_gap(const Situation& situation) {
   return false;
 }
 
-ActionType BeliefPolicy::explore(const Situation& /*situation*/, std::mt19937_64& rng) {
-  // Far, straight on where possible.
+ActionType BeliefPolicy::explore(std::mt19937_64& rng) {
   const std::vector<LatticeState>& states = lattice_.states();
   std::size_t best = 0;
-  double most = 0.0;
+  double most_m = 0.0;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    const double far_m = norm(lattice_.position_of(states[i]));
-    const double worth = far_m - 0.3 * states[i].cost_m;
-    if (worth > most) {
-      most = worth;
+    double new_m = kNewEnough_m;
+    for (const Cell been : trail_) {
+      const Cell off = states[i].offset - been;
+      new_m = std::min(new_m, lattice_.step_m() * std::hypot(off.x, off.y));
+    }
+    double worth_m = new_m - kHaste * states[i].cost_m;
+    if (is_near_target(states[i].offset)) {
+      worth_m += kResolve_m;
+    }
+    if (worth_m > most_m) {
+      most_m = worth_m;
       best = i;
     }
   }
+  best_ = best;
   if (best != 0) {
     return lattice_.first_action(best);
   }
   if (last_ == ActionType::kTurnLeft || last_ == ActionType::kTurnRight) {
     return last_;
   }
-  return draw_index(rng, 2) == 0 ? ActionType::kTurnLeft : ActionType::kTurnRight;
+  return draw_turn(rng);
+}
+
+bool BeliefPolicy::is_near_target(Cell offset) const {
+  return target_ && std::abs(offset.x - target_->x) <= 2 && std::abs(offset.y - target_->y) <= 2;
 }
 
 ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng) {
-  ActionType action = ActionType::kStop;
-  if (situation.is_converged) {
-    for (int i = 0; best_ == 0 && i < kMostGaps && close_gap(situation); ++i) {
-      cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
-      best_ = best_state(situation, hypotheses_);
-    }
-    action = lattice_.first_action(best_);
+  for (int i = 0; best_ == 0 && i < kMostGaps && close_gap(situation); ++i) {
+    cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
+    best_ = best_state(situation, hypotheses_);
   }
+  ActionType action = lattice_.first_action(best_);
   if (action == ActionType::kStop) {
-    action = explore(situation, rng);
+    action = explore(rng);
   }
   last_ = action;
-  remember(lattice_.states()[best_].offset, action);
+  remember(action);
   return action;
 }
 
-void BeliefPolicy::remember(Cell target, ActionType action) {
+void BeliefPolicy::remember(ActionType action) {
   target_.reset();
   if (best_ != 0) {
-    // As it will lie when the action is done.
-    target_ = action == ActionType::kMoveForward ? target - Cell{1, 0}
-                                                 : turned(target, -quarter_turns(action));
+    target_ = lattice_.states()[best_].offset;
+  }
+  // As all will lie when the action is done.
+  trail_.push_back({0, 0});
+  if (trail_.size() > kLongestTrail) {
+    trail_.pop_front();
+  }
+  const auto moved = [action](Cell c) {
+    return action == ActionType::kMoveForward ? c - Cell{1, 0} : turned(c, -quarter_turns(action));
+  };
+  std::transform(trail_.begin(), trail_.end(), trail_.begin(), moved);
+  if (target_) {
+    target_ = moved(*target_);
   }
 }
 

@@ -11,8 +11,8 @@
 
 namespace cmn {
 
-/// Bearings of a profile: 5 deg apart, whole quarter turns of them map them onto each other.
-constexpr int kBearings = 72;
+/// Bearings of a profile: 10 deg apart, whole quarter turns of them map them onto each other.
+constexpr int kBearings = 36;
 constexpr int kBearingsPerQuarter = kBearings / 4;
 constexpr double bearing_rad(int b) { return 2.0 * kPi * b / kBearings; }
 

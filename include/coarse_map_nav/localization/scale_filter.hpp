@@ -44,6 +44,9 @@ class ScaleFilter : public Localizer {
 
   /// P(scale), in the order of scale_of().
   std::vector<double> scale_marginal() const;
+  /// Mean log likelihood of the rays at the best hypothesis, averaged over the way [nats]; about 0
+  /// where everything fits.
+  double fit() const { return fit_; }
   double scale_of(int i) const { return sheets_[static_cast<std::size_t>(i)].scale; }
 
  private:
@@ -70,10 +73,16 @@ class ScaleFilter : public Localizer {
   bool weigh(const RayProfile& rays, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
   double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
+  double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   void normalise(double total);
   void summarise();
   /// Layers are taken to be headings until the first look tells how the odometry lies.
   void start(const std::function<double(Heading, Cell)>& weight_of);
+  /// Adds `each` times the weights, and the priors of scale and rim, to all sheets; returns the
+  /// sum.
+  double spread(const std::function<double(Heading, Cell)>& weight_of, double each);
+  /// Nothing fits: anywhere is possible again.
+  void reopen();
 
   std::ptrdiff_t plane_index(std::uint32_t padded_index) const;
   Cell cell_of(std::uint32_t padded_index) const;
@@ -88,6 +97,9 @@ class ScaleFilter : public Localizer {
   int plane_stride_ = 0;
   std::vector<float> field_;  ///< log(exp(-d^2 / 2 sigma^2) + random), d to the nearest drawn wall
   std::vector<float> occupied_;  ///< 0 or 1
+  /// Log likelihood of a ray by the error of its coded range, from -255 on.
+  std::vector<float> log_of_hit_;
+  std::vector<float> log_of_free_;
   std::vector<Sheet> sheets_;
   std::vector<float> scratch_;
   std::vector<std::uint32_t> scratch_support_;
@@ -100,6 +112,8 @@ class ScaleFilter : public Localizer {
   double yaw_rad_ = 0.0;
   double scale_ = 1.0;
   double confidence_ = 0.0;
+  double fit_ = 0.0;
+  bool has_fit_ = false;
 };
 
 }  // namespace cmn

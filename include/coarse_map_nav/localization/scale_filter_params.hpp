@@ -12,22 +12,25 @@ namespace cmn {
 struct ScaleFilterParams {
   WallCompassParams compass;
   double reach_m = 8.0;
-  int scales = 1;
+  int scales = 5;
   double least_scale = 0.7;
   double greatest_scale = 1.4;
+  double scale_sigma = 0.25;
   double scale_drift = 0.0;
-  double range_weight = 10.0;
-  double range_sigma = 0.12;
+  double range_weight = 8.0;
+  double range_sigma = 0.14;
   double range_short = 0.25;
   double range_random = 0.08;
   double field_weight = 1.5;
   double field_sigma_m = 0.3;
   double field_random = 0.3;
   double free_weight = 4.0;
-  double independence_m = 0.8;
+  double independence_m = 1.0;
   double rim_penalty = 0.3;
   double diffusion = 0.1;
   double blocked_share = 0.3;
+  double reopen_fit = -0.8;
+  double reopen_share = 0.9;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("compass", self.compass);
@@ -37,6 +40,8 @@ struct ScaleFilterParams {
     visit("least_scale", self.least_scale, Between{0.1, 10.0},
           "[-] drawn metres a metre, at least");
     visit("greatest_scale", self.greatest_scale, Between{0.1, 10.0}, "[-] and at most");
+    visit("scale_sigma", self.scale_sigma, Between{0.01, 100.0},
+          "[-] standard deviation, before the first look, of the log of the scale about 0");
     visit("scale_drift", self.scale_drift, Between{0.0, 1.0},
           "[1/m] share of a scale's belief that goes over to each neighbour per metre");
     visit("range_weight", self.range_weight, Between{0.0, 200.0},
@@ -61,6 +66,12 @@ struct ScaleFilterParams {
           "[-] likelihood of standing on an occupied cell beside a free one, per look");
     visit("diffusion", self.diffusion, Between{0.0, 5.0},
           "[1/m] share of a cell's belief that goes over to each neighbour per metre driven");
+    visit(
+        "reopen_fit", self.reopen_fit, Between{-20.0, 1.0},
+        "[nats] the belief is re-opened when the rays fit worse than this at the best hypothesis, "
+        "on the mean of the last looks (of right ones 1 in 100 does worse than -0.7)");
+    visit("reopen_share", self.reopen_share, Between{0.0, 1.0},
+          "[-] share of a uniform belief mixed in then");
     visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
           "[-] so much of the belief that would have to pass a drawn wall stays before it");
   }

@@ -9,6 +9,7 @@
 #include "coarse_map_nav/planning/policy.hpp"
 #include "coarse_map_nav/planning/repaired_cost_to_go.hpp"
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -42,8 +43,10 @@ class BeliefPolicy : public Policy {
   std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
   /// The goal would lead through a gap that the lattice does not fit through: closes it.
   bool close_gap(const Situation& situation);
-  void remember(Cell target, ActionType action);
-  ActionType explore(const Situation& situation, std::mt19937_64& rng);
+  void remember(ActionType action);
+  bool is_near_target(Cell offset) const;
+  /// To where the robot has not been.
+  ActionType explore(std::mt19937_64& rng);
 
   LocalLattice lattice_;
   MapRepairParams repair_;
@@ -53,6 +56,7 @@ class BeliefPolicy : public Policy {
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
   std::size_t best_ = 0;                ///< state of the lattice to go to; 0: stay
   std::optional<Cell> target_;  ///< of the last decision, from where the robot is now [steps]
+  std::deque<Cell> trail_;      ///< where it has been, from where it is now [steps]
   ActionType last_ = ActionType::kStop;
 };
 

@@ -1,0 +1,58 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the robot has seen around itself lately: no need to turn round for every look.
+#pragma once
+
+#include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/data/grid.hpp"
+#include "coarse_map_nav/data/local_occupancy.hpp"
+#include "coarse_map_nav/data/param_tree.hpp"
+
+namespace cmn {
+
+struct RollingMapParams {
+  double most_looks = 0.5;
+  double memory_m = 6.0;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("most_looks", self.most_looks, Between{0.1, 100.0},
+          "[looks] rolling map: what was seen before never counts more than this");
+    visit("memory_m", self.memory_m, Between{0.1, 1000.0},
+          "[m] rolling map: the way after which what was seen counts 1/e");
+  }
+};
+
+/// The rolling local map of CMP (Gupta et al. 2017, eq. 1 to 3), with analytic occupancy: estimate
+/// f and confidence c are carried along by egomotion, and a look (f', c') is folded in by f <- (f c
+/// + f' c') / (c + c'), c <- c + c'.
+///
+/// Two differences (ours): the grid keeps its place in the odometry and scrolls with the robot,
+/// since warping it anew at each step blurs walls away; and confidence is limited and fades with
+/// the way driven, since odometry drifts and people move.
+class RollingMap {
+ public:
+  explicit RollingMap(const RollingMapParams& params) : params_{params} {}
+
+  /// Folds in a look and returns all that is known, in the frame and on the cells of the look.
+  LocalOccupancy fuse(const LocalOccupancy& look, const Pose2& T_odom_robot);
+  /// The odometry jumped: what was seen lies nobody knows where.
+  void forget();
+
+ private:
+  struct Known {
+    float occupancy = 0.5F;
+    float confidence = 0.0F;
+  };
+  /// Of cells of the odometry frame; the array is a torus of which each cell is used once.
+  Known& at(Cell c);
+  void scroll_to(Cell middle);
+
+  RollingMapParams params_;
+  Grid<Known> known_;
+  double resolution_ = 0.0;
+  Cell middle_;  ///< cell of the odometry frame that the window is about
+  Point2 last_;
+};
+
+}  // namespace cmn
