@@ -25,6 +25,7 @@ constexpr double kResolve_m = 1.0;
 constexpr double kNewEnough_m = 3.0;
 constexpr double kHaste = 0.3;
 constexpr std::size_t kLongestTrail = 300;
+constexpr double kNearGoal_m = 0.6;
 constexpr int kMostGaps = 8;  ///< closed in one decision
 
 }  // namespace
@@ -227,13 +228,23 @@ bool BeliefPolicy::is_near_target(Cell offset) const {
 }
 
 ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng) {
-  for (int i = 0; best_ == 0 && i < kMostGaps && close_gap(situation); ++i) {
+  const double off_m = situation.map.resolution() / situation.scale *
+                       norm(situation.position_cells - situation.goal_cells);
+  // Near the goal there is nothing to get through to; not sure of it yet, the robot looks around.
+  const bool is_near_goal = off_m < kNearGoal_m;
+  for (int i = 0; best_ == 0 && !is_near_goal && i < kMostGaps && close_gap(situation); ++i) {
     cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
     best_ = best_state(situation, hypotheses_);
   }
   ActionType action = lattice_.first_action(best_);
   if (action == ActionType::kStop) {
     action = explore(rng);
+  }
+  // To and fro on the spot teaches nothing.
+  const bool undoes_a_turn =
+      quarter_turns(action) != 0 && quarter_turns(last_) == -quarter_turns(action);
+  if (undoes_a_turn) {
+    action = last_;
   }
   last_ = action;
   remember(action);
