@@ -65,7 +65,7 @@ void see_believe_plan(benchmark::State& state, const NavigatorParams& given, dou
   }
 }
 
-/// As config/navigator.yaml: a longer look, compared with 9 x 9 cells of the drawing.
+/// A longer look, compared with 9 x 9 cells of the drawing.
 NavigatorParams nine_by_nine() {
   NavigatorParams params;
   params.perception.local_occupancy = {96, 3.84, 0.4};

@@ -47,17 +47,29 @@ class Navigator {
   /// With an observation for the localizer that does not come from the scan.
   Decision step(const RangeScan& scan, LocalOccupancy seen, const Pose2& T_odom_robot,
                 MotionOutcome last_outcome) {
-    planner_.action_ended(last_outcome);
+    const double clear_m = cmn::clear_ahead_m(scan, seen, params_.perception.guard);
     const bool is_rolling = params_.perception.accumulate == "rolling";
-    seen_ = is_rolling ? rolling_seen_.fuse(seen, T_odom_robot) : std::move(seen);
+    LocalOccupancy local_map;
     if (params_.planning.needs_local_map()) {
-      local_map_ = local_map_projector_.project(scan);
+      local_map = local_map_projector_.project(scan);
       if (is_rolling) {
-        local_map_ = rolling_local_map_.fuse(local_map_, T_odom_robot);
+        local_map = rolling_local_map_.fuse(local_map, T_odom_robot);
       }
     }
+    if (is_rolling) {
+      seen = rolling_seen_.fuse(seen, T_odom_robot);
+    }
+    return step(std::move(seen), std::move(local_map), clear_m, T_odom_robot, last_outcome);
+  }
+  /// With all that perception makes of a scan. `local_map` may be empty where the policy needs
+  /// none.
+  Decision step(LocalOccupancy seen, LocalOccupancy local_map, double clear_ahead_m,
+                const Pose2& T_odom_robot, MotionOutcome last_outcome) {
+    planner_.action_ended(last_outcome);
+    seen_ = std::move(seen);
+    local_map_ = std::move(local_map);
+    clear_ahead_m_ = clear_ahead_m;
     localizer_->update(seen_, T_odom_robot);
-    clear_ahead_m_ = cmn::clear_ahead_m(scan, seen_, params_.perception.guard);
     return planner_.decide(localizer_->localization(), is_blocked_ahead(), &local_map_);
   }
 

@@ -5,6 +5,7 @@
 
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
+#include "coarse_map_nav/perception/rolling_map.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include <message_filters/subscriber.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
@@ -20,6 +22,7 @@
 #include <std_msgs/Empty.h>
 #include <std_msgs/Float32.h>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_listener.h>
 
 namespace {
@@ -31,13 +34,25 @@ class PerceptionNode {
             ros::NodeHandle("~"))},
         projector_{params_.navigator.perception.local_occupancy},
         map_projector_{params_.navigator.perception.local_map},
+        rolling_{params_.navigator.perception.rolling},
+        rolling_map_{params_.navigator.perception.rolling},
         scans_{"scan", params_.own.scan_timeout_s} {
     local_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_occupancy", 1);
     map_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_map", 1);
     grid_pub_ = nh_.advertise<nav_msgs::OccupancyGrid>("local_occupancy/grid", 1);
     blocked_pub_ = nh_.advertise<std_msgs::Bool>("obstacle_ahead", 1);
     clear_pub_ = nh_.advertise<std_msgs::Float32>("clear_ahead", 1);
-    scan_sub_ = nh_.subscribe("scan", 1, &PerceptionNode::on_scan, this);
+    if (is_rolling_) {  // waits for the odometry of its time
+      scan_filter_.emplace(rolling_scan_sub_, tf_buffer_, params_.frames.odom, 5, nh_);
+      scan_filter_->registerCallback(
+          [this](const sensor_msgs::LaserScan::ConstPtr& scan) { on_scan(*scan); });
+      scan_filter_->registerFailureCallback([this](const sensor_msgs::LaserScan::ConstPtr&, auto) {
+        scans_.dropped("no transform to " + params_.frames.odom + " at its time");
+      });
+      rolling_scan_sub_.subscribe(nh_, "scan", 5);
+    } else {
+      scan_sub_ = nh_.subscribe("scan", 1, &PerceptionNode::on_scan, this);
+    }
     observe_sub_ = nh_.subscribe("observe", 1, &PerceptionNode::on_observe, this);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("scan", &scans_, &cmn::InputMonitor::report);
@@ -62,7 +77,7 @@ class PerceptionNode {
     scans_.received(scan.header.stamp);
     cmn::BeamCount beams;
     const cmn::RangeScan ranges = cmn::scan_of(scan, *T_robot_sensor);
-    const cmn::LocalOccupancy local = projector_.project(ranges, &beams);
+    cmn::LocalOccupancy local = projector_.project(ranges, &beams);
     if (beams.used == 0) {
       scans_.dropped("no range of the scan is usable");
       return;
@@ -77,6 +92,9 @@ class PerceptionNode {
 
     std_msgs::Header header = scan.header;
     header.frame_id = params_.frames.base;
+    if (is_rolling_ && !accumulate(ranges, local, header)) {
+      return;
+    }
     last_ = cmn::message_of(local, header);
     last_->clear_ahead = clear.data;
     local_pub_.publish(*last_);
@@ -85,6 +103,27 @@ class PerceptionNode {
     if (grid_pub_.getNumSubscribers() > 0) {
       publish_grid(local, header);
     }
+  }
+
+  /// Adds to a look what was seen before, and folds it in.
+  bool accumulate(const cmn::RangeScan& ranges, cmn::LocalOccupancy& local,
+                  const std_msgs::Header& header) {
+    std::string why;
+    const std::optional<cmn::Pose2> T_odom_robot =
+        cmn::lookup(tf_buffer_, params_.frames.odom, params_.frames.base, header.stamp, why);
+    if (!T_odom_robot) {
+      scans_.dropped(why);
+      return false;
+    }
+    if (last_ && header.stamp < last_->header.stamp) {  // of another odometry
+      rolling_.forget();
+      rolling_map_.forget();
+    }
+    local = rolling_.fuse(local, *T_odom_robot);
+    if (map_pub_.getNumSubscribers() > 0) {
+      last_map_ = rolling_map_.fuse(map_projector_.project(ranges), *T_odom_robot);
+    }
+    return true;
   }
 
   /// Somebody missed the last observation: once more.
@@ -98,8 +137,12 @@ class PerceptionNode {
   /// Of the last scan.
   void publish_local_map() {
     if (map_pub_.getNumSubscribers() > 0) {
-      coarse_map_nav::LocalOccupancy map =
-          cmn::message_of(map_projector_.project(last_ranges_), last_->header);
+      if (!is_rolling_) {
+        last_map_ = map_projector_.project(last_ranges_);
+      } else if (last_map_.stamp_s != last_ranges_.stamp_s) {
+        return;  // it was not yet listened to
+      }
+      coarse_map_nav::LocalOccupancy map = cmn::message_of(last_map_, last_->header);
       map.clear_ahead = last_->clear_ahead;
       map_pub_.publish(map);
     }
@@ -122,9 +165,13 @@ class PerceptionNode {
   cmn::NodeParams<cmn::PerceptionNodeParams> params_;
   cmn::RangeProjector projector_;
   cmn::RangeProjector map_projector_;
+  const bool is_rolling_ = params_.navigator.perception.accumulate == "rolling";
+  cmn::RollingMap rolling_;
+  cmn::RollingMap rolling_map_;
   cmn::InputMonitor scans_;
   std::optional<coarse_map_nav::LocalOccupancy> last_;
   cmn::RangeScan last_ranges_;  ///< of which it was made
+  cmn::LocalOccupancy last_map_;
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   ros::Publisher local_pub_;
@@ -133,6 +180,8 @@ class PerceptionNode {
   ros::Publisher blocked_pub_;
   ros::Publisher clear_pub_;
   ros::Subscriber scan_sub_;
+  message_filters::Subscriber<sensor_msgs::LaserScan> rolling_scan_sub_;
+  std::optional<tf2_ros::MessageFilter<sensor_msgs::LaserScan>> scan_filter_;
   ros::Subscriber observe_sub_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer timer_;

@@ -33,7 +33,7 @@ class PlannerNode {
         beliefs_{"belief", 0.0},
         plan_{nh_, params_.frames.map},
         looks_{nh_, params_.navigator.planning.needs_local_map(),
-               [this] { return awaits_local_map_ ? decide(*belief_) : void(); }},
+               [this] { return missing_.empty() ? void() : decide(*belief_); }},
         goals_{nh_, params_.frames.map, [this](cmn::Point2 goal) { return begin(goal); },
                [this] { cancel(); }} {
     action_pub_ = nh_.advertise<coarse_map_nav::DiscreteAction>("action", 1);
@@ -96,11 +96,10 @@ class PlannerNode {
       return;
     }
     std::optional<cmn::LocalOccupancy> local_map;
-    if (looks_.needs_local_map() && !(local_map = looks_.local_map(msg.header.stamp, why))) {
-      await_local_map(why);
-      return;
+    if (looks_.needs_local_map() && !(local_map = looks_.local_map(msg.header.stamp, missing_))) {
+      return;  // decided when it comes
     }
-    awaits_local_map_ = false;
+    missing_.clear();
     const cmn::Decision decision =
         planner_->decide(received->localization(),
                          looks_.was_blocked(msg.header.stamp, params_.navigator.planning.step_m),
@@ -118,13 +117,11 @@ class PlannerNode {
   }
 
   /// Orders nothing before the robot knows what is around it.
-  void await_local_map(const std::string& why) {
-    ROS_WARN_STREAM_THROTTLE(5.0, "waiting for local_map: " << why);
-    if (!awaits_local_map_) {
-      awaits_local_map_ = true;
-      looks_.ask();
-      publish_status(cmn::resting(State::kLocalizing, "waiting for local_map: " + why));
-    }
+  void ask_for_local_map() {
+    const std::string text = "waiting for local_map: " + missing_;
+    ROS_WARN_STREAM_THROTTLE(5.0, text);
+    looks_.ask();
+    publish_status(cmn::resting(State::kLocalizing, text));
   }
 
   void cancel() {
@@ -135,7 +132,8 @@ class PlannerNode {
 
   void end(const cmn::Decision& decision) {
     publish_status(decision);
-    is_under_way_ = awaits_local_map_ = false;
+    is_under_way_ = false;
+    missing_.clear();
     planner_->cancel_goal();
     action_ = coarse_map_nav::DiscreteAction{};  // STOP; no belief is awaited any more
     action_pub_.publish(action_);
@@ -147,8 +145,8 @@ class PlannerNode {
   }
 
   void on_timer(const ros::TimerEvent& /*event*/) {
-    if (awaits_local_map_) {
-      looks_.ask();
+    if (!missing_.empty()) {
+      ask_for_local_map();
     } else if (is_under_way_ && action_.id != 0 &&
                std::abs((ros::Time::now() - sent_).toSec()) > params_.own.resend_after_s) {
       ROS_WARN_STREAM("no belief after action " << action_.id << " yet: sending it again");
@@ -168,7 +166,7 @@ class PlannerNode {
   std::optional<cmn::CoarseMap> map_;
   std::optional<cmn::Planner> planner_;
   coarse_map_nav::Belief::ConstPtr belief_;
-  bool awaits_local_map_ = false;  ///< to decide on belief_
+  std::string missing_;  ///< why belief_ cannot be decided on yet; else empty
   coarse_map_nav::DiscreteAction action_;
   bool is_under_way_ = false;
   ros::Time sent_;

@@ -226,10 +226,11 @@ class ReplayedJourney : public Journey {
     beliefs_.clear();  // at rest none is under way
     ASSERT_TRUE(wait_for([this] { return !beliefs_.empty(); }));
   }
-  const coarse_map_nav::LocalOccupancy* observation_at(const ros::Time& stamp) const {
-    for (const auto& observation : observations_.all()) {
-      if (observation->header.stamp == stamp) {
-        return observation.get();
+  using Look = coarse_map_nav::LocalOccupancy;
+  static const Look* look_at(const Inbox<Look>& looks, const ros::Time& stamp) {
+    for (const auto& look : looks.all()) {
+      if (look->header.stamp == stamp) {
+        return look.get();
       }
     }
     return nullptr;
@@ -262,7 +263,8 @@ class ReplayedJourney : public Journey {
 
   tf2_ros::Buffer transforms_{ros::Duration(3600.0)};
   tf2_ros::TransformListener listener_{transforms_};
-  Inbox<coarse_map_nav::LocalOccupancy> observations_{"local_occupancy"};
+  Inbox<Look> observations_{"local_occupancy"};
+  Inbox<Look> local_maps_{"local_map"};
   Inbox<coarse_map_nav::DiscreteAction> actions_{"action"};
   Inbox<nav_msgs::OccupancyGrid> maps_{"map"};
 };
@@ -287,15 +289,21 @@ TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
     const auto& belief = *beliefs_.all()[i];
     SCOPED_TRACE("belief " + std::to_string(i) + " after action " +
                  std::to_string(belief.action_id));
-    const auto* observation = observation_at(belief.header.stamp);
+    const Look* observation = look_at(observations_, belief.header.stamp);
     ASSERT_NE(observation, nullptr);
     const auto seen = local_occupancy_of(*observation, why);
     ASSERT_TRUE(seen) << why;
+    // The planner may have been late for the first, and have taken the next: nothing had moved.
+    const Look* const wide = look_at(local_maps_, belief.header.stamp);
+    ASSERT_NE(wide, nullptr);
+    const auto local_map = local_occupancy_of(*wide, why);
+    ASSERT_TRUE(local_map) << why;
     const auto T_odom_robot =
         lookup(transforms_, "odom", observation->header.frame_id, observation->header.stamp, why);
     ASSERT_TRUE(T_odom_robot) << why;
     const Decision decision =
-        navigator.step(RangeScan{}, *seen, *T_odom_robot, outcome_of(belief.action_id));
+        navigator.step(*seen, *local_map, static_cast<double>(observation->clear_ahead),
+                       *T_odom_robot, outcome_of(belief.action_id));
 
     const Localization at = navigator.localizer().localization();
     const auto theirs = belief_of(belief, *map, why);
@@ -311,6 +319,7 @@ TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
     ASSERT_NE(action, nullptr);
     EXPECT_EQ(static_cast<int>(decision.action.type), static_cast<int>(action->type));
     EXPECT_FLOAT_EQ(static_cast<float>(decision.action.distance_m), action->distance);
+    EXPECT_NEAR(decision.action.axes_yaw_rad, static_cast<double>(action->axes_yaw), 1e-6);
     ++compared;
   }
   EXPECT_GE(compared, has_ended() ? 1 : static_cast<int>(enough) - 2);
