@@ -101,7 +101,7 @@ class PerceptionNode {
     last_ranges_ = ranges;
     publish_local_map();
     if (grid_pub_.getNumSubscribers() > 0) {
-      publish_grid(local, header);
+      grid_pub_.publish(cmn::grid_message(local, header));
     }
   }
 
@@ -146,19 +146,6 @@ class PerceptionNode {
       map.clear_ahead = last_->clear_ahead;
       map_pub_.publish(map);
     }
-  }
-
-  void publish_grid(const cmn::LocalOccupancy& local, const std_msgs::Header& header) {
-    nav_msgs::OccupancyGrid grid;
-    grid.header = header;
-    grid.info.resolution = static_cast<float>(local.resolution);
-    grid.info.width = grid.info.height = static_cast<std::uint32_t>(local.size);
-    grid.info.origin = cmn::pose_message({-0.5 * local.side_m(), -0.5 * local.side_m(), 0.0});
-    for (std::size_t i = 0; i < local.cell_count(); ++i) {
-      const bool is_known = local.confidence[i] > 0.0F;
-      grid.data.push_back(is_known ? static_cast<std::int8_t>(100.0F * local.occupancy[i]) : -1);
-    }
-    grid_pub_.publish(grid);
   }
 
   ros::NodeHandle nh_;

@@ -133,6 +133,19 @@ coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std
   return message;
 }
 
+nav_msgs::OccupancyGrid grid_message(const LocalOccupancy& local, const std_msgs::Header& header) {
+  nav_msgs::OccupancyGrid grid;
+  grid.header = header;
+  grid.info.resolution = static_cast<float>(local.resolution);
+  grid.info.width = grid.info.height = static_cast<std::uint32_t>(local.size);
+  grid.info.origin = pose_message({-0.5 * local.side_m(), -0.5 * local.side_m(), 0.0});
+  for (std::size_t i = 0; i < local.cell_count(); ++i) {
+    const bool is_known = local.confidence[i] > 0.0F;
+    grid.data.push_back(is_known ? static_cast<std::int8_t>(100.0F * local.occupancy[i]) : -1);
+  }
+  return grid;
+}
+
 std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccupancy& msg,
                                                  std::string& why) {
   const auto cells = static_cast<std::uint64_t>(msg.size) * msg.size;
