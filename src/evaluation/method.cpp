@@ -11,6 +11,8 @@ const std::vector<Method>& methods() {
   static const std::vector<Method> kMethods = [] {
     Method ours{"ours", "navigator.yaml"};
     ours.has_shared_planner = false;
+    Method rolling{"rolling", "rolling.yaml"};
+    rolling.has_shared_planner = false;
     Method cmn{"cmn", "cmn_tree.yaml"};
     cmn.knows_heading = cmn.ends_by_judge = true;
     Method robb{"robb", "cmn.yaml"};
@@ -28,7 +30,7 @@ const std::vector<Method>& methods() {
     Method oracle{"oracle", "navigator.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
     oracle.has_shared_planner = false;
-    return std::vector<Method>{ours, cmn, robb, mcse, rmn, rnd, true_pose, oracle};
+    return std::vector<Method>{ours, rolling, cmn, robb, mcse, rmn, rnd, true_pose, oracle};
   }();
   return kMethods;
 }
