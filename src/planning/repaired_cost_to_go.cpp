@@ -15,7 +15,9 @@ constexpr double kSlope = 2.0;
 }  // namespace
 
 RepairedCostToGo::RepairedCostToGo(const RepairedMap& map, Cell goal)
-    : goal_{goal}, cost_{map.width(), map.height(), std::numeric_limits<std::int32_t>::max()} {
+    : goal_{goal},
+      cost_{map.width(), map.height(), std::numeric_limits<std::int32_t>::max()},
+      towards_{map.width(), map.height()} {
   int dearest = 1;
   for (int y = 0; y < map.height(); ++y) {
     for (int x = 0; x < map.width(); ++x) {
@@ -38,6 +40,7 @@ RepairedCostToGo::RepairedCostToGo(const RepairedMap& map, Cell goal)
         const Cell c = here + unit_step(h);
         if (cost_.contains(c) && longer < cost_(c)) {
           cost_(c) = longer;
+          towards_(c) = turned(h, 2);
           buckets[static_cast<std::size_t>(longer) % buckets.size()].push_back(c);
           ++waiting;
         }
@@ -69,16 +72,11 @@ double RepairedCostToGo::between(Point2 p_parts) const {
 }
 
 std::optional<Cell> RepairedCostToGo::next(Cell part) const {
-  std::optional<Cell> best;
-  double least = (*this)(part);
-  for (const Heading h : kHeadings) {
-    const Cell c = part + unit_step(h);
-    if ((*this)(c) < least) {
-      least = (*this)(c);
-      best = c;
-    }
+  // Not the neighbour of the least cost: a wall beside costs little once one is in it.
+  if (part == goal_ || !cost_.contains(part)) {
+    return std::nullopt;
   }
-  return best;
+  return part + unit_step(towards_(part));
 }
 
 }  // namespace cmn

@@ -30,7 +30,7 @@ class RepairedCostToGo {
   /// The same between the middles of parts, bilinear among those with no wall in between;
   /// `p_parts`: part (0, 0) from 0 to 1.
   double between(Point2 p_parts) const;
-  /// The neighbour from where the goal is cheapest; none at the goal and outside.
+  /// The next part on a cheapest way to the goal; none at the goal and outside.
   std::optional<Cell> next(Cell part) const;
 
  private:
@@ -38,6 +38,7 @@ class RepairedCostToGo {
 
   Cell goal_;
   Grid<std::int32_t> cost_;
+  Grid<Heading> towards_;  ///< to the next part
 };
 
 }  // namespace cmn

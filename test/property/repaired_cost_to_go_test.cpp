@@ -1,0 +1,118 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What holds on any repaired map: the cheapest way is the cheapest, and leads to the goal.
+#include "coarse_map_nav/planning/repaired_cost_to_go.hpp"
+
+#include "coarse_map_nav/data/random.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "random_case.hpp"
+#include <gtest/gtest.h>
+
+namespace cmn {
+namespace {
+
+/// Drawn at random, with some looks at random and some failures.
+RepairedMap random_repaired_map(std::mt19937_64& rng) {
+  const int width = 2 + static_cast<int>(draw_index(rng, 7));
+  const int height = 2 + static_cast<int>(draw_index(rng, 7));
+  RepairedMap map{random_map(rng, width, height), MapRepairParams{}};
+  for (int i = 0; i < 4; ++i) {
+    LocalOccupancy seen = random_observation(rng, 24, 1.2);
+    for (float& o : seen.occupancy) {
+      o = o > 0.99F ? 1.0F : 0.0F;
+    }
+    ClearanceMap clearance;
+    clearance.measure(seen);
+    map.fuse(seen, clearance, 0.19, {width * draw_uniform(rng), height * draw_uniform(rng)},
+             6.0 * draw_uniform(rng));
+    map.mark_failed({static_cast<int>(draw_index(rng, map.width())),
+                     static_cast<int>(draw_index(rng, map.height()))});
+  }
+  return map;
+}
+
+Cell random_part(std::mt19937_64& rng, const RepairedMap& map) {
+  return {static_cast<int>(draw_index(rng, static_cast<std::size_t>(map.width()))),
+          static_cast<int>(draw_index(rng, static_cast<std::size_t>(map.height())))};
+}
+
+/// Bellman and Ford: relaxes every step of the map until none helps.
+Grid<double> brute_force_costs(const RepairedMap& map, Cell goal) {
+  Grid<double> cost{map.width(), map.height(), std::numeric_limits<double>::infinity()};
+  cost(goal) = 0.0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < cost.size(); ++i) {
+      for (const Heading h : kHeadings) {
+        const Cell to = cost.cell_at(i) + unit_step(h);
+        if (cost.contains(to) && cost(to) + map.cost(to) < cost[i]) {
+          cost[i] = cost(to) + map.cost(to);
+          changed = true;
+        }
+      }
+    }
+  }
+  return cost;
+}
+
+TEST(RepairedCostToGoProperty, EqualsBruteForce) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 rng{seed};
+    const RepairedMap map = random_repaired_map(rng);
+    const Cell goal = random_part(rng, map);
+    const RepairedCostToGo cost_to_go{map, goal};
+    const Grid<double> expected = brute_force_costs(map, goal);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(cost_to_go(expected.cell_at(i)), expected[i]);
+    }
+  }
+}
+
+TEST(RepairedCostToGoProperty, LeadsFromEverywhereToTheGoalAtItsPrice) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 rng{seed};
+    const RepairedMap map = random_repaired_map(rng);
+    const RepairedCostToGo cost_to_go{map, random_part(rng, map)};
+    EXPECT_FALSE(cost_to_go.next(cost_to_go.goal()));
+    for (int i = 0; i < 20; ++i) {
+      Cell part = random_part(rng, map);
+      const double promised = cost_to_go(part);
+      double paid = 0.0;
+      while (const auto next = cost_to_go.next(part)) {
+        part = *next;
+        paid += map.cost(part);
+        ASSERT_LE(paid, promised);
+      }
+      EXPECT_EQ(part, cost_to_go.goal());
+      EXPECT_EQ(paid, promised);
+    }
+  }
+}
+
+TEST(RepairedCostToGoProperty, BetweenTheMiddlesItLiesBetweenTheNeighbours) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 rng{seed};
+    const RepairedMap map = random_repaired_map(rng);
+    const RepairedCostToGo cost_to_go{map, random_part(rng, map)};
+    for (int i = 0; i < 50; ++i) {
+      const Point2 p{map.width() * draw_uniform(rng), map.height() * draw_uniform(rng)};
+      const Cell home{static_cast<int>(p.x), static_cast<int>(p.y)};
+      EXPECT_NEAR(cost_to_go.between(p), cost_to_go(home), 2.0);
+      EXPECT_DOUBLE_EQ(cost_to_go.between(middle_of(home)), cost_to_go(home));
+    }
+    // Outside nothing is near.
+    EXPECT_GT(cost_to_go.between({-3.3, 0.5}), 1e6);
+    EXPECT_GT(cost_to_go({0, map.height()}), 1e6);
+  }
+}
+
+}  // namespace
+}  // namespace cmn
