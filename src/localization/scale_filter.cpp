@@ -16,9 +16,9 @@ namespace {
 
 /// Of the greatest weight; less is dropped, and with it the work on it.
 constexpr float kLeastShare = 1e-9F;
-/// Free rays are probed at these shares of their range.
 /// Share of a whole new look in the running mean of the fit.
 constexpr double kFitGain = 0.3;
+/// Free rays are probed at these shares of their range.
 constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
 
 Cell rounded(Point2 p) {
@@ -330,6 +330,9 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   drift_between_scales(std::min(0.2, params_.scale_drift * norm(driven)));
   Correction outcome = Correction::kApplied;
   if (news > 0.0 && !weigh(cast_rays(seen, T_axes_robot.yaw, params_.reach_m), news)) {
+    // The odometry led all hypotheses into walls: the robot may be anywhere.
+    normalise(spread([](Heading, Cell) { return 1.0; }, 1.0));
+    has_fit_ = false;
     outcome = Correction::kContradiction;
   }
   if (has_fit_ && fit_ < params_.reopen_fit && confidence_ >= converged_confidence_) {

@@ -30,10 +30,11 @@ void ScaleFilter::shift(Sheet& sheet, int layer, Cell by) {
                         table_.may_stand(static_cast<std::size_t>(i + delta));
     // Mass that faces a wall stays (CMN eq. 1), but hardly: walls that are drawn mostly stand.
     const auto target = static_cast<std::uint32_t>(may_go ? i + delta : i);
-    if (scratch_[target] == 0.0F) {
+    const float mass = (may_go ? 1.0F : blocked) * weight[i];
+    if (mass > 0.0F && scratch_[target] == 0.0F) {
       scratch_support_.push_back(target);
     }
-    scratch_[target] += (may_go ? 1.0F : blocked) * weight[i];
+    scratch_[target] += mass;
   }
   for (const std::uint32_t i : support) {
     weight[i] = 0.0F;
