@@ -92,7 +92,7 @@ refused "house:4-3 are no houses" --world house:4-3 --out "$out/refused"
 refused "house:x is no house" --world house:x --out "$out/refused"
 refused "nowhere.yaml" --world "$out/nowhere.yaml" --out "$out/refused"
 refused "another world is called home" "${home[@]}" --world "$worlds/home.yaml"
-refused 'method "magic" is none of ours, cmn' "${home[@]}" --method magic
+refused 'method "magic" is none of ours, rolling, cmn' "${home[@]}" --method magic
 refused 'task "XX" is none of CG' "${home[@]}" --task XX
 refused "--mpp fine is not" "${home[@]}" --mpp fine
 refused "--mpp 0 is not" "${home[@]}" --mpp 0
