@@ -223,6 +223,12 @@ ActionType BeliefPolicy::explore(std::mt19937_64& rng) {
   return draw_turn(rng);
 }
 
+bool BeliefPolicy::may_go_forward() const {
+  return std::any_of(lattice_.states().begin(), lattice_.states().end(), [](const LatticeState& s) {
+    return s.parent == 0 && s.action == ActionType::kMoveForward;
+  });
+}
+
 bool BeliefPolicy::is_near_target(Cell offset) const {
   return target_ && std::abs(offset.x - target_->x) <= 2 && std::abs(offset.y - target_->y) <= 2;
 }
@@ -240,11 +246,12 @@ ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng
   if (action == ActionType::kStop) {
     action = explore(rng);
   }
-  // To and fro on the spot teaches nothing.
+  // To and fro on the spot teaches nothing; nor does turning round and round where two ways are as
+  // good, each by a look the other way.
   const bool undoes_a_turn =
       quarter_turns(action) != 0 && quarter_turns(last_) == -quarter_turns(action);
   if (undoes_a_turn) {
-    action = last_;
+    action = best_ != 0 && may_go_forward() ? ActionType::kMoveForward : last_;
   }
   last_ = action;
   remember(action);

@@ -44,6 +44,7 @@ class BeliefPolicy : public Policy {
   /// The goal would lead through a gap that the lattice does not fit through: closes it.
   bool close_gap(const Situation& situation);
   void remember(ActionType action);
+  bool may_go_forward() const;
   bool is_near_target(Cell offset) const;
   /// To where the robot has not been.
   ActionType explore(std::mt19937_64& rng);
