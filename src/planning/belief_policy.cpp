@@ -170,6 +170,9 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
 }
 
 bool BeliefPolicy::close_gap(const Situation& situation) {
+  if (situation.confidence < repair_.confidence) {
+    return false;  // a gap of which place?
+  }
   // Down the cost-to-go from here: the first part where no state of the lattice lies.
   const double parts_per_m = situation.scale * map_->cuts() / situation.map.resolution();
   const double yaw_rad = situation.yaw_rad;

@@ -142,6 +142,14 @@ TEST(BeliefPolicy, DrivesToTheGoalAndSaysSo) {
   }
 }
 
+TEST(BeliefPolicy, FindsTheWayRoundWhenADrawnDoorIsBlocked) {
+  Journey journey{rooms(true, true), rooms(false, true), {3, 9}, Heading::kEast, {11, 9}};
+  EXPECT_LE(journey.actions_to_goal(250), 150);  // 4.8 m + 2 * 2.8 m: 70 steps and some looks
+  EXPECT_LE(journey.off_goal_m(), 0.3);
+  const RepairedMap& map = *journey.policy.repaired_map();
+  EXPECT_TRUE(map.is_open(map.part_of({7.5, 3.0})));
+}
+
 TEST(BeliefPolicy, TakesADoorThatTheDrawingLacks) {
   Journey journey{rooms(false, true), rooms(true, true), {3, 9}, Heading::kEast, {11, 9}};
   EXPECT_LE(journey.actions_to_goal(250), 45);  // 3.2 m straight on
@@ -164,6 +172,10 @@ TEST(BeliefPolicy, ExploresWhileItKnowsNothing) {
   }
   EXPECT_GE(been.size(), 10U);
   EXPECT_EQ(journey.stuck, 0);
+  // And learns nothing meanwhile: it does not know where.
+  const RepairedMap& map = *journey.policy.repaired_map();
+  EXPECT_TRUE(
+      is_same_drawing(map.as_map(), RepairedMap{journey.drawing(), MapRepairParams{}}.as_map()));
 }
 
 TEST(BeliefPolicy, GoesWhereAllHypothesesAgree) {
