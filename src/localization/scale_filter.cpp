@@ -8,9 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
-
 namespace cmn {
 namespace {
 
@@ -33,38 +30,12 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
       params_{params},
       converged_confidence_{converged_confidence},
       table_{map, code_},
+      // No ray leaves the field, at any scale.
+      field_{map, params.reach_m * std::max({1.0, params.least_scale, params.greatest_scale}),
+             params.field_sigma_m, params.field_random},
       compass_{params.compass},
       belief_{map.width(), map.height()} {
   stride_ = belief_.stride();
-  const double farthest_m = params.reach_m * std::max(1.0, params.greatest_scale);
-  plane_margin_ = static_cast<int>(std::ceil(farthest_m / map.resolution())) + 3;
-  plane_stride_ = map.width() + 2 * plane_margin_;
-  const int plane_height = map.height() + 2 * plane_margin_;
-
-  cv::Mat free(plane_height, plane_stride_, CV_8U, cv::Scalar{0});
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      free.at<std::uint8_t>(y + plane_margin_, x + plane_margin_) = map.is_free({x, y}) ? 255 : 0;
-    }
-  }
-  // Hits lie on surfaces: on what is drawn beside free ground, not deep within it.
-  cv::Mat near_free;
-  cv::dilate(free, near_free, cv::Mat{});
-  const cv::Mat no_surface = (free != 0) | (near_free == 0);
-  cv::Mat distance;
-  cv::distanceTransform(no_surface, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-  for (int y = 0; y < plane_height; ++y) {
-    for (int x = 0; x < plane_stride_; ++x) {
-      // From the border of the cell, not from its middle.
-      const double d_m =
-          std::max(0.0, static_cast<double>(distance.at<float>(y, x)) - 0.5) * map.resolution();
-      const double share = d_m / params.field_sigma_m;
-      field_.push_back(
-          static_cast<float>(std::log(std::exp(-0.5 * share * share) + params.field_random)));
-      occupied_.push_back(free.at<std::uint8_t>(y, x) == 0 ? 1.0F : 0.0F);
-    }
-  }
-
   for (int i = 0; i < params.scales; ++i) {
     Sheet sheet;
     const double share = params.scales == 1 ? 0.0 : static_cast<double>(i) / (params.scales - 1);
@@ -166,11 +137,6 @@ Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
   return {i % stride_ - 1, i / stride_ - 1};
 }
 
-std::ptrdiff_t ScaleFilter::plane_index(std::uint32_t padded_index) const {
-  const Cell c = cell_of(padded_index);
-  return static_cast<std::ptrdiff_t>(c.y + plane_margin_) * plane_stride_ + c.x + plane_margin_;
-}
-
 ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet& sheet,
                                             int layer) const {
   Evidence evidence;
@@ -195,9 +161,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
     }
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b));
     const auto offset_at = [&](double range_m) {
-      const Cell c = turned(
-          rounded(sheet.offset + (range_m * sheet.scale / map_.resolution()) * ahead), layer);
-      return static_cast<std::ptrdiff_t>(c.y) * plane_stride_ + c.x;
+      return field_.offset_of(turned(
+          rounded(sheet.offset + (range_m * sheet.scale / map_.resolution()) * ahead), layer));
     };
     if (ray.is_hit) {
       evidence.hits.push_back(offset_at(ray.range_m));
@@ -227,14 +192,14 @@ double ScaleFilter::range_log_likelihood(const Evidence& evidence, int layer,
 }
 
 double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
-  const std::ptrdiff_t at = plane_index(cell);
+  const std::ptrdiff_t at = field_.index_of(cell_of(cell));
   float hits = 0.0F;
   for (const std::ptrdiff_t offset : evidence.hits) {
-    hits += field_[static_cast<std::size_t>(at + offset)];
+    hits += field_.log_hit(at + offset);
   }
   float frees = 0.0F;
   for (const std::ptrdiff_t offset : evidence.frees) {
-    frees += occupied_[static_cast<std::size_t>(at + offset)];
+    frees += field_.occupied(at + offset);
   }
   return range_log_likelihood(evidence, layer, cell) +
          params_.field_weight * static_cast<double>(hits) /
@@ -317,6 +282,7 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
     driven = turned(T_odom_robot.position() - *p_odom_last_, -compass_.axes_yaw_rad());
     news = std::min(1.0, norm(driven) / params_.independence_m);
   } else {
+    // Till now layers were headings: see start().
     const int quarters = index(nearest_heading(T_axes_robot.yaw));
     for (Sheet& sheet : sheets_) {
       std::rotate(sheet.weight.begin(), sheet.weight.begin() + quarters, sheet.weight.end());
@@ -327,7 +293,6 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   for (Sheet& sheet : sheets_) {
     move(sheet, driven);
   }
-  drift_between_scales(std::min(0.2, params_.scale_drift * norm(driven)));
   Correction outcome = Correction::kApplied;
   if (news > 0.0 && !weigh(cast_rays(seen, T_axes_robot.yaw, params_.reach_m), news)) {
     // The odometry led all hypotheses into walls: the robot may be anywhere.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace cmn {
 namespace {
@@ -88,40 +87,6 @@ void ScaleFilter::move(Sheet& sheet, Point2 driven_m) {
     }
     if (share > 0.0) {
       diffuse(sheet, layer, share);
-    }
-  }
-}
-
-void ScaleFilter::drift_between_scales(double share) {
-  if (share <= 0.0 || sheets_.size() < 2) {
-    return;
-  }
-  for (std::size_t layer = 0; layer < 4; ++layer) {
-    const auto give = static_cast<float>(share);
-    // From each sheet to the next and back: what both give up is exchanged at once.
-    for (std::size_t s = 0; s + 1 < sheets_.size(); ++s) {
-      Sheet& a = sheets_[s];
-      Sheet& b = sheets_[s + 1];
-      const std::size_t in_a = a.support[layer].size();
-      for (const std::uint32_t i : b.support[layer]) {
-        if (a.weight[layer][i] == 0.0F) {
-          a.weight[layer][i] = std::numeric_limits<float>::min();
-          a.support[layer].push_back(i);
-        }
-      }
-      for (std::size_t j = 0; j < in_a; ++j) {
-        const std::uint32_t i = a.support[layer][j];
-        if (b.weight[layer][i] == 0.0F) {
-          b.weight[layer][i] = std::numeric_limits<float>::min();
-          b.support[layer].push_back(i);
-        }
-      }
-      for (const std::uint32_t i : a.support[layer]) {
-        const float from_a = give * a.weight[layer][i];
-        const float from_b = give * b.weight[layer][i];
-        a.weight[layer][i] += from_b - from_a;
-        b.weight[layer][i] += from_a - from_b;
-      }
     }
   }
 }

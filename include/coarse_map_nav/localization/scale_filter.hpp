@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Ours: a belief over scale x heading x cell, from all that the sensor reaches.
+/// Ours: LocalOccupancy and odometry -> a belief over scale x heading x cell.
 #pragma once
 
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/localization/hit_field.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/range_table.hpp"
 #include "coarse_map_nav/localization/scale_filter_params.hpp"
@@ -24,7 +25,7 @@ namespace cmn {
 ///  - A look is compared over the whole range of the sensor, not over three cells: by a range model
 ///    in the log of the range, where a wrong scale is a mere offset and clutter that the drawing
 ///    lacks is cheap, and by a likelihood field (Thrun et al. 2005, ch. 6), where hits must lie
-///    near something drawn and free rays must not. Neither is enough alone.
+///    near something drawn and free rays must not.
 ///  - The grid of hypotheses rides along with the robot: odometry moves it as a whole, and mass
 ///    changes its cell only when the grid has moved by one. So motion alone does not blur.
 ///  - Layers stand for how the drawing lies in the odometry, and not for the robot's heading: they
@@ -62,13 +63,12 @@ class ScaleFilter : public Localizer {
   struct Evidence {
     std::array<std::array<float, 256>, kBearings>
         by_code;                       ///< [bearing of the look][expected range]
-    std::vector<std::ptrdiff_t> hits;  ///< offsets in the padded planes
+    std::vector<std::ptrdiff_t> hits;  ///< offsets in the field
     std::vector<std::ptrdiff_t> frees;
   };
   void move(Sheet& sheet, Point2 driven_m);
   void shift(Sheet& sheet, int layer, Cell by);
   void diffuse(Sheet& sheet, int layer, double share);
-  void drift_between_scales(double share);
   /// Weighs all cells; false when nothing is left.
   bool weigh(const RayProfile& rays, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
@@ -84,7 +84,6 @@ class ScaleFilter : public Localizer {
   /// Nothing fits: anywhere is possible again.
   void reopen();
 
-  std::ptrdiff_t plane_index(std::uint32_t padded_index) const;
   Cell cell_of(std::uint32_t padded_index) const;
 
   CoarseMap map_;
@@ -92,11 +91,8 @@ class ScaleFilter : public Localizer {
   double converged_confidence_;
   LogRange code_;
   RangeTable table_;
-  int stride_ = 0;        ///< of the padded layers
-  int plane_margin_ = 0;  ///< [cells] of the planes below, so that no ray leaves them
-  int plane_stride_ = 0;
-  std::vector<float> field_;  ///< log(exp(-d^2 / 2 sigma^2) + random), d to the nearest drawn wall
-  std::vector<float> occupied_;  ///< 0 or 1
+  HitField field_;
+  int stride_ = 0;  ///< of the padded layers
   /// Log likelihood of a ray by the error of its coded range, from -255 on.
   std::vector<float> log_of_hit_;
   std::vector<float> log_of_free_;

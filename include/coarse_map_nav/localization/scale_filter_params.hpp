@@ -16,7 +16,6 @@ struct ScaleFilterParams {
   double least_scale = 0.7;
   double greatest_scale = 1.4;
   double scale_sigma = 0.25;
-  double scale_drift = 0.0;
   double range_weight = 8.0;
   double range_sigma = 0.14;
   double range_short = 0.25;
@@ -41,9 +40,8 @@ struct ScaleFilterParams {
           "[-] drawn metres a metre, at least");
     visit("greatest_scale", self.greatest_scale, Between{0.1, 10.0}, "[-] and at most");
     visit("scale_sigma", self.scale_sigma, Between{0.01, 100.0},
-          "[-] standard deviation, before the first look, of the log of the scale about 0");
-    visit("scale_drift", self.scale_drift, Between{0.0, 1.0},
-          "[1/m] share of a scale's belief that goes over to each neighbour per metre");
+          "[-] standard deviation, of the log of the scale before the first look; its mean is 0, "
+          "the nominal scale");
     visit("range_weight", self.range_weight, Between{0.0, 200.0},
           "[-] range model: the mean over the bearings counts as so many independent ranges");
     visit("range_sigma", self.range_sigma, Between{0.01, 2.0},
