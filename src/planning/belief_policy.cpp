@@ -25,6 +25,7 @@ constexpr double kResolve_m = 1.0;
 constexpr double kNewEnough_m = 3.0;
 constexpr double kHaste = 0.3;
 constexpr std::size_t kLongestTrail = 300;
+/// Nearer than this to the goal there is no gap to get through.
 constexpr double kNearGoal_m = 0.6;
 constexpr int kMostGaps = 8;  ///< closed in one decision
 
@@ -65,8 +66,8 @@ void BeliefPolicy::look(const Situation& situation) {
         map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
                    situation.position_cells, yaw_rad, situation.scale);
     if (situation.is_stuck) {
-      const double ahead =
-          (lattice_.step_m() + lattice_.least_clearance_m()) / situation.map.resolution();
+      const double ahead = situation.scale * (lattice_.step_m() + lattice_.least_clearance_m()) /
+                           situation.map.resolution();
       is_stale_ |= map_->mark_failed(
           map_->part_of(situation.position_cells + turned(Point2{ahead, 0.0}, yaw_rad)));
     }
@@ -81,11 +82,7 @@ void BeliefPolicy::look(const Situation& situation) {
 
 std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) const {
   const Belief& belief = situation.belief;
-  struct Candidate {
-    Estimate state;
-    double weight;
-  };
-  std::vector<Candidate> candidates;
+  std::vector<Estimate> candidates;
   const double least = kLeastShare * situation.estimate.probability;
   for (const Heading h : kHeadings) {
     const std::vector<double>& layer = belief.layer(h);
@@ -94,25 +91,26 @@ std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& 
       for (int x = 0; x < belief.width(); ++x) {
         const double probability = belief.factor() * row[x];
         if (probability > least) {
-          candidates.push_back({{h, {x, y}, probability}, probability});
+          candidates.push_back({h, {x, y}, probability});
         }
       }
     }
   }
   if (candidates.size() > kMostHypotheses) {
-    std::nth_element(candidates.begin(), candidates.begin() + kMostHypotheses, candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
+    std::nth_element(
+        candidates.begin(), candidates.begin() + kMostHypotheses, candidates.end(),
+        [](const Estimate& a, const Estimate& b) { return a.probability > b.probability; });
     candidates.resize(kMostHypotheses);
   }
   // Within its cell every hypothesis lies as the estimate does in its own.
   const Point2 within = situation.position_cells - middle_of(situation.estimate.cell);
   std::vector<Hypothesis> found;
   double total = 0.0;
-  for (const Candidate& c : candidates) {
-    const int turns = index(c.state.heading) - index(situation.estimate.heading);
-    found.push_back({middle_of(c.state.cell) + turned(within, turns * kPi / 2.0),
-                     situation.yaw_rad + turns * kPi / 2.0, c.weight});
-    total += c.weight;
+  for (const Estimate& c : candidates) {
+    const int turns = index(c.heading) - index(situation.estimate.heading);
+    found.push_back({middle_of(c.cell) + turned(within, turns * kPi / 2.0),
+                     situation.yaw_rad + turns * kPi / 2.0, c.probability});
+    total += c.probability;
   }
   for (Hypothesis& hypothesis : found) {
     hypothesis.weight /= total;

@@ -66,7 +66,6 @@ bool RepairedMap::fuse(const LocalOccupancy& local, const ClearanceMap& clearanc
       Tally& tally =
           tally_of({static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))});
       const double clear_m = clearance.at_cell(local.index_of(ix, iy));
-      ++tally.pixels;
       tally.known += clear_m >= 0.0;
       tally.drivable += clear_m >= least_clearance_m;
     }

@@ -49,8 +49,7 @@ class RepairedMap {
 
   /// Parts that a cell of the drawing is cut into along each side.
   int cuts() const { return cuts_; }
-  /// In the cells of the drawing and, `cuts()` times as many, in its own.
-  const CoarseMap& drawing() const { return drawing_; }
+  /// The part that holds a point given in cells of the drawing.
   Cell part_of(Point2 position_cells) const;
   int width() const { return parts_.width(); }
   int height() const { return parts_.height(); }
@@ -89,7 +88,6 @@ class RepairedMap {
   int cuts_ = 1;
   Grid<Part> parts_;
   struct Tally {
-    int pixels = 0;
     int known = 0;
     int drivable = 0;
   };
