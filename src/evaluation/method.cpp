@@ -24,10 +24,10 @@ const std::vector<Method>& methods() {
     Method rnd{"rnd", "random.yaml"};
     rnd.has_shared_planner = false;
     rnd.ends_by_judge = true;
-    Method true_pose{"true_pose", "navigator.yaml"};
+    Method true_pose{"true_pose", "rolling.yaml"};
     true_pose.knows_pose = true;
     true_pose.has_shared_planner = false;
-    Method oracle{"oracle", "navigator.yaml"};
+    Method oracle{"oracle", "rolling.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
     oracle.has_shared_planner = false;
     return std::vector<Method>{ours, rolling, cmn, robb, mcse, rmn, rnd, true_pose, oracle};
@@ -67,18 +67,13 @@ NavigatorParams method_params(const Method& method, const Task& task,
   if (!faults.empty()) {
     throw std::runtime_error(file + ":" + faults);
   }
-  if (method.knows_pose) {
-    params.planning.policy = "belief";
-    params.planning.goal_tolerance_m = 0.25;
-  }
   if (method.plans_on_world) {
     params.planning.map_repair.drawn_wall_cost = 1000;  // walls of the world are no mistakes
   }
   if (task.has_paper_setting) {
     params.perception.guard.type = "none";
   }
-  const bool is_in_paper_setting = task.has_paper_setting && method.name != "oracle";
-  if (method.has_shared_planner && !is_in_paper_setting) {
+  if (method.has_shared_planner && !task.has_paper_setting) {
     params.planning.policy = "lattice";
     // CMN acts on its estimate from the first step on.
     params.localization.converged_confidence = 0.0;
