@@ -4,6 +4,7 @@
 
 #include "coarse_map_nav/localization/localizer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -134,14 +135,22 @@ coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std
 }
 
 nav_msgs::OccupancyGrid grid_message(const LocalOccupancy& local, const std_msgs::Header& header) {
+  constexpr double kShown_m = 6.0;
+  const int margin =
+      std::max(0, static_cast<int>(0.5 * (local.size - std::floor(kShown_m / local.resolution))));
+  const int side = local.size - 2 * margin;
   nav_msgs::OccupancyGrid grid;
   grid.header = header;
   grid.info.resolution = static_cast<float>(local.resolution);
-  grid.info.width = grid.info.height = static_cast<std::uint32_t>(local.size);
-  grid.info.origin = pose_message({-0.5 * local.side_m(), -0.5 * local.side_m(), 0.0});
-  for (std::size_t i = 0; i < local.cell_count(); ++i) {
-    const bool is_known = local.confidence[i] > 0.0F;
-    grid.data.push_back(is_known ? static_cast<std::int8_t>(100.0F * local.occupancy[i]) : -1);
+  grid.info.width = grid.info.height = static_cast<std::uint32_t>(side);
+  const double corner_m = -0.5 * side * local.resolution;
+  grid.info.origin = pose_message({corner_m, corner_m, 0.0});
+  for (int iy = margin; iy < margin + side; ++iy) {
+    for (int ix = margin; ix < margin + side; ++ix) {
+      const std::size_t i = local.index_of(ix, iy);
+      const bool is_known = local.confidence[i] > 0.0F;
+      grid.data.push_back(is_known ? static_cast<std::int8_t>(100.0F * local.occupancy[i]) : -1);
+    }
   }
   return grid;
 }

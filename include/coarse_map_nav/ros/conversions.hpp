@@ -49,7 +49,8 @@ nav_msgs::OccupancyGrid grid_message(const CoarseMap& map);
 std::optional<CoarseMap> map_of(const nav_msgs::OccupancyGrid& grid, std::string& why);
 
 coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std_msgs::Header& h);
-/// For rviz: 0 to 100, -1 where nothing is known.
+/// For rviz: 0 to 100, -1 where nothing is known. The middle 6 m at most: a larger square would
+/// hide the drawing.
 nav_msgs::OccupancyGrid grid_message(const LocalOccupancy& local, const std_msgs::Header& header);
 std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccupancy& msg,
                                                  std::string& why);

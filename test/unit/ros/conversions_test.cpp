@@ -158,6 +158,19 @@ TEST(LocalOccupancyConversion, RoundTripKeepsEverything) {
   EXPECT_EQ(back->source, ObservationSource::kLidar);
 }
 
+TEST(LocalOccupancyConversion, APictureShowsTheMiddleSixMetres) {
+  LocalOccupancy local{160, 0.1};
+  local.occupancy[local.index_of(50, 51)] = 1.0F;
+  local.confidence[local.index_of(50, 51)] = 1.0F;
+  const nav_msgs::OccupancyGrid grid = grid_message(local, {});
+  ASSERT_EQ(grid.info.width, 60U);
+  ASSERT_EQ(grid.data.size(), 3600U);
+  EXPECT_DOUBLE_EQ(grid.info.origin.position.x, -3.0);
+  EXPECT_EQ(grid.data[60], 100);
+  EXPECT_EQ(grid.data[0], -1);
+  EXPECT_EQ(grid_message(LocalOccupancy{128, 0.01}, {}).info.width, 128U);
+}
+
 TEST(LocalOccupancyConversion, MalformedOnesAreRefusedWithAReason) {
   using Local = coarse_map_nav::LocalOccupancy;
   const Fault<Local> faults[]{
