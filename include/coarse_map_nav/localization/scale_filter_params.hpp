@@ -67,7 +67,7 @@ struct ScaleFilterParams {
     visit(
         "reopen_fit", self.reopen_fit, Between{-20.0, 1.0},
         "[nats] the belief is re-opened when the rays fit worse than this at the best hypothesis, "
-        "on the mean of the last looks (of right ones 1 in 100 does worse than -0.7)");
+        "on the mean of the last looks");
     visit("reopen_share", self.reopen_share, Between{0.0, 1.0},
           "[-] share of a uniform belief mixed in then");
     visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
