@@ -217,14 +217,20 @@ TEST_F(Journey, ArrivesAlthoughEveryNodeIsKilledOnTheWay) {
 /// What was heard of a journey, for doing it again without ROS.
 class ReplayedJourney : public Journey {
  protected:
-  /// The localizer begins anew, before the eyes of this test.
+  /// The localizer begins anew, before the eyes of this test and of the planner, which would
+  /// otherwise decide on the last belief of the one before.
   void restart_localizer() {
-    ASSERT_TRUE(wait_for([this] { return !observations_.empty() && !maps_.empty(); }));
+    const auto heard_by_planner = [this] {
+      return diagnosed(diagnostics_, "planner: belief", "received");
+    };
+    ASSERT_TRUE(wait_for(
+        [&] { return !observations_.empty() && !maps_.empty() && heard_by_planner() >= 1.0; }));
+    const double before = heard_by_planner();
     const pid_t first = pid_of("/localizer");
     ASSERT_GT(first, 0);
     kill(first, SIGKILL);
     beliefs_.clear();  // at rest none is under way
-    ASSERT_TRUE(wait_for([this] { return !beliefs_.empty(); }));
+    ASSERT_TRUE(wait_for([&] { return !beliefs_.empty() && heard_by_planner() > before; }));
   }
   using Look = coarse_map_nav::LocalOccupancy;
   static const Look* look_at(const Inbox<Look>& looks, const ros::Time& stamp) {
@@ -267,6 +273,7 @@ class ReplayedJourney : public Journey {
   Inbox<Look> local_maps_{"local_map"};
   Inbox<coarse_map_nav::DiscreteAction> actions_{"action"};
   Inbox<nav_msgs::OccupancyGrid> maps_{"map"};
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
 };
 
 TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
