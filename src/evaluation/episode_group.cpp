@@ -19,7 +19,7 @@ struct Name {
   const char* shown;
 };
 
-constexpr std::array<Name, 8> kTasks{{
+constexpr std::array<Name, 9> kTasks{{
     {"CG", "coarse-grid map, true 3 x 3 crop of it seen, known yaw"},
     {"CI", "coarse-grid map, four RGB images, known yaw"},
     {"HD", "hand-drawn map, four RGB images, known yaw"},
@@ -28,6 +28,7 @@ constexpr std::array<Name, 8> kTasks{{
     {"CF", "coarse-grid map, looking forward only, unknown yaw"},
     {"HL", "hand-drawn map, LiDAR 360 deg, unknown yaw"},
     {"WL", "walls-only map, LiDAR 360 deg, unknown yaw"},
+    {"TL", "coarse map turned by 7 deg, LiDAR 360 deg, unknown yaw"},
 }};
 
 constexpr std::array<Name, 8> kMethods{{

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/task.hpp"
 
+#include "coarse_map_nav/mapping/turned_map.hpp"
+
 #include <stdexcept>
 
 namespace cmn {
@@ -16,6 +18,7 @@ const std::vector<Task>& tasks() {
       {"CF", D::kCoarseGrid, O::kForwardLidar, false, false},
       {"HL", D::kHandDrawn, O::kLidar, false, false},
       {"WL", D::kWallsOnly, O::kLidar, false, false},
+      {"TL", D::kTurnedGrid, O::kLidar, false, false},
   };
   return kTasks;
 }
@@ -40,6 +43,8 @@ Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, d
       return hand_drawn(world, mpp, seed);
     case DrawingKind::kWallsOnly:
       return walls != nullptr ? coarse_grid(*walls, mpp) : walls_only(world, mpp);
+    case DrawingKind::kTurnedGrid:
+      return coarse_grid(turned_map(world, kDrawingTurn_rad), mpp);
     case DrawingKind::kCoarseGrid:
       break;
   }

@@ -6,6 +6,7 @@
 #include "coarse_map_nav/evaluation/drawing.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/map_writer.hpp"
+#include "coarse_map_nav/mapping/turned_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,8 @@ int run(int argc, char** argv) {
       "mpp", po::value<double>()->default_value(0.4), "metres per pixel (cell) of the coarse map")(
       "clearance", po::value<double>()->default_value(0.0),
       "of grid and walls: ground counts as occupied this near to anything [m], as in CMN's maps")(
+      "turn", po::value<double>()->default_value(0.0),
+      "of grid and walls: how far the sheet is turned to the left against the world's axes [deg]")(
       "seed", po::value<std::uint32_t>()->default_value(1), "which of all drawings")(
       "out", po::value<std::string>(), "the map to write, .yaml");
   po::variables_map given;
@@ -85,19 +88,32 @@ int run(int argc, char** argv) {
   }
   const auto mpp = given["mpp"].as<double>();
   const auto clearance = given["clearance"].as<double>();
+  const double turn_rad = given["turn"].as<double>() * cmn::kPi / 180.0;
+  if (!std::isfinite(turn_rad)) {
+    throw std::runtime_error("--turn is no number of degrees");
+  }
   const auto seed = given["seed"].as<std::uint32_t>();
   using Draw = std::function<cmn::Drawing(const cmn::CoarseMap&)>;
   const std::map<std::string, Draw> kinds{
       {"grid",
-       [&](const cmn::CoarseMap& world) { return cmn::coarse_grid(world, mpp, clearance); }},
+       [&](const cmn::CoarseMap& world) {
+         return cmn::coarse_grid(cmn::turned_map(world, turn_rad), mpp, clearance);
+       }},
       {"walls",
-       [&](const cmn::CoarseMap& world) { return cmn::walls_only(world, mpp, clearance); }},
+       [&](const cmn::CoarseMap& world) {
+         return cmn::coarse_grid(cmn::turned_map(cmn::without_furniture(world), turn_rad), mpp,
+                                 clearance);
+       }},
       {"hand_drawn",
        [&](const cmn::CoarseMap& world) { return cmn::hand_drawn(world, mpp, seed); }}};
   const auto kind = kinds.find(given["kind"].as<std::string>());
   if (kind == kinds.end()) {
     throw std::runtime_error("--kind " + given["kind"].as<std::string>() +
                              " is unknown; there are grid, walls and hand_drawn");
+  }
+
+  if (kind->first == "hand_drawn" && turn_rad != 0.0) {
+    throw std::runtime_error("--turn is for grid and walls: a hand drawing has turns of its own");
   }
 
   const std::string world_path = given["world"].as<std::string>();

@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
   add_option(
       "task",
       po::value<std::vector<std::string>>()->multitoken()->composing()->default_value({"CL"}, "CL"),
-      "CG, CL, CF, HL, WL; several with commas");
+      "CG, CL, CF, HL, WL, TL; several with commas");
   add_option("mpp",
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
                  {"0.4"}, "0.4"),

@@ -12,7 +12,9 @@
 
 namespace cmn {
 
-enum class DrawingKind { kCoarseGrid, kHandDrawn, kWallsOnly };
+enum class DrawingKind { kCoarseGrid, kHandDrawn, kWallsOnly, kTurnedGrid };
+/// Of kTurnedGrid: how far its axes lie from those of the walls.
+constexpr double kDrawingTurn_rad = 7.0 * kPi / 180.0;
 enum class ObservationKind {
   kTrueCrop,     ///< the true 3 x 3 crop of the map (CMN, "grid observations")
   kLidar,        ///< 360 deg

@@ -39,7 +39,7 @@ double free_share(const CoarseMap& map) {
 }
 
 TEST(Task, AnUnknownOneIsRefusedWithAListOfAll) {
-  EXPECT_EQ(refusal_of_task("XX"), "task \"XX\" is none of CG, CL, CF, HL, WL");
+  EXPECT_EQ(refusal_of_task("XX"), "task \"XX\" is none of CG, CL, CF, HL, WL, TL");
   for (const char* name : {"CG", "CL", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).name, name);
   }
@@ -74,6 +74,9 @@ TEST(Task, DrawsItsMap) {
   // The walls of a house are known.
   const CoarseMap all_free{Grid<std::uint8_t>{160, 160}, 0.05};
   EXPECT_EQ(free_share(draw(find_task("WL"), world, &all_free, 0.4, 1, 0.2).map()), 1.0);
+  const CoarseMap turned = draw(find_task("TL"), world, nullptr, 0.4, 1, 0.2).map();
+  EXPECT_NEAR(turned.T_map_grid().yaw - world.T_map_grid().yaw, kDrawingTurn_rad, 1e-12);
+  EXPECT_TRUE(turned.is_free(turned.cell_of({1.0, 1.0})));
   const Drawing drawn = draw(find_task("HL"), world, nullptr, 0.4, 1, 0.2);
   EXPECT_GT(drawn.map().free_count(), 0U);
   EXPECT_FALSE(drawn.map().occupied() ==
