@@ -31,6 +31,10 @@ std::string text_of(Between range) {
   return "[" + text_of(range.lowest) + ", " + text_of(range.highest) + "]";
 }
 
+std::string text_of(MultipleOf range) {
+  return "multiples of " + std::to_string(range.of) + " up to " + std::to_string(range.highest);
+}
+
 std::string text_of(const OneOf& one_of) {
   std::string text;
   for (const std::string& word : one_of.words) {
@@ -148,6 +152,21 @@ void ParamLoader::operator()(const std::string& name, int& value, Between range,
   }
 }
 
+void ParamLoader::operator()(const std::string& name, int& value, MultipleOf range,
+                             const char* /*doc*/) {
+  double number = 0.0;
+  const Between bounds{static_cast<double>(range.of), static_cast<double>(range.highest)};
+  if (!find_number(name, bounds, true, number)) {
+    return;
+  }
+  if (static_cast<int>(number) % range.of != 0) {
+    problems_.push_back(prefix_ + name + ": " + text_of(number) + " is none of the " +
+                        text_of(range));
+    return;
+  }
+  value = static_cast<int>(number);
+}
+
 void ParamLoader::operator()(const std::string& name, std::uint32_t& value, Between range,
                              const char* /*doc*/) {
   double number = 0.0;
@@ -207,6 +226,11 @@ void ParamLister::operator()(const std::string& name, double value, Between rang
 }
 
 void ParamLister::operator()(const std::string& name, int value, Between range, const char* doc) {
+  docs_.push_back({prefix_ + name, std::to_string(value), text_of(range), doc});
+}
+
+void ParamLister::operator()(const std::string& name, int value, MultipleOf range,
+                             const char* doc) {
   docs_.push_back({prefix_ + name, std::to_string(value), text_of(range), doc});
 }
 

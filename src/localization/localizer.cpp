@@ -17,11 +17,11 @@ Pose2 pose_in_map(const CoarseMap& map, const Localization& localization) {
 }
 
 double weight_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad,
-                   const CoarseMap& map, Heading heading, Cell cell) {
+                   const CoarseMap& map, double yaw_rad, Cell cell) {
   const double sigma_m = std::max(position_sigma_m, 0.5 * map.resolution());
   const double off = norm(map.center_of(cell) - T_map_robot.position()) / sigma_m;
-  const double off_yaw = wrap_angle(yaw(heading) + map.T_map_grid().yaw - T_map_robot.yaw) /
-                         std::max(yaw_sigma_rad, 0.1);
+  const double off_yaw =
+      wrap_angle(yaw_rad + map.T_map_grid().yaw - T_map_robot.yaw) / std::max(yaw_sigma_rad, 0.1);
   return off > 5.0 ? 0.0 : std::exp(-0.5 * (off * off + off_yaw * off_yaw));
 }
 

@@ -37,13 +37,17 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
       belief_{map.width(), map.height()} {
   stride_ = belief_.stride();
   for (int i = 0; i < params.scales; ++i) {
-    Sheet sheet;
     const double share = params.scales == 1 ? 0.0 : static_cast<double>(i) / (params.scales - 1);
-    sheet.scale =
+    const double scale =
         params.scales == 1
             ? 1.0
             : params.least_scale * std::pow(params.greatest_scale / params.least_scale, share);
-    sheets_.push_back(std::move(sheet));
+    for (int j = 0; j < turns(); ++j) {
+      Sheet sheet;
+      sheet.scale = scale;
+      sheet.turn_rad = 2.0 * kPi * (j - (turns() - 1) / 2) / params.headings;
+      sheets_.push_back(std::move(sheet));
+    }
   }
   for (int error = -255; error <= 255; ++error) {
     const double share = code_.step() * error / params.range_sigma;
@@ -58,7 +62,7 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
   reset();
 }
 
-double ScaleFilter::spread(const std::function<double(Heading, Cell)>& weight_of, double each) {
+double ScaleFilter::spread(const Weights& weight_of, double each) {
   double total = 0.0;
   for (Sheet& sheet : sheets_) {
     const double off = std::log(sheet.scale) / params_.scale_sigma;
@@ -72,7 +76,9 @@ double ScaleFilter::spread(const std::function<double(Heading, Cell)>& weight_of
         const std::size_t at = belief_.padded_index(c);
         const double share = map_.is_free(c) ? 1.0 : params_.rim_penalty;
         const auto more =
-            table_.may_stand(at) ? static_cast<float>(prior * share * weight_of(heading, c)) : 0.0F;
+            table_.may_stand(at)
+                ? static_cast<float>(prior * share * weight_of(heading, sheet.turn_rad, c))
+                : 0.0F;
         if (more > 0.0F && weight[at] == 0.0F) {
           support.push_back(static_cast<std::uint32_t>(at));
         }
@@ -84,7 +90,7 @@ double ScaleFilter::spread(const std::function<double(Heading, Cell)>& weight_of
   return total;
 }
 
-void ScaleFilter::start(const std::function<double(Heading, Cell)>& weight_of) {
+void ScaleFilter::start(const Weights& weight_of) {
   for (Sheet& sheet : sheets_) {
     sheet.offset = {};
     for (std::size_t layer = 0; layer < 4; ++layer) {
@@ -99,32 +105,60 @@ void ScaleFilter::start(const std::function<double(Heading, Cell)>& weight_of) {
   summarise();
 }
 
+void ScaleFilter::turn_back(double yaw_rad) {
+  const int by = static_cast<int>(std::lround(yaw_rad * params_.headings / (2.0 * kPi)));
+  for (std::size_t first = 0; first < sheets_.size(); first += static_cast<std::size_t>(turns())) {
+    // All directions of one scale, round the circle.
+    std::vector<std::pair<std::vector<float>*, std::vector<std::uint32_t>*>> states;
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      for (std::size_t j = first; j < first + static_cast<std::size_t>(turns()); ++j) {
+        states.emplace_back(&sheets_[j].weight[layer], &sheets_[j].support[layer]);
+      }
+    }
+    std::vector<std::pair<std::vector<float>, std::vector<std::uint32_t>>> before;
+    for (const auto& [weight, support] : states) {
+      before.emplace_back(std::move(*weight), std::move(*support));
+    }
+    const int count = params_.headings;
+    for (int d = 0; d < count; ++d) {
+      auto& [weight, support] =
+          before[static_cast<std::size_t>(((d + by) % count + count) % count)];
+      *states[static_cast<std::size_t>(d)].first = std::move(weight);
+      *states[static_cast<std::size_t>(d)].second = std::move(support);
+    }
+  }
+}
+
 void ScaleFilter::reopen() {
   const double states =
       static_cast<double>(sheets_.size()) * 4.0 * static_cast<double>(map_.free_count());
   const double each = params_.reopen_share / std::max(1e-6, 1.0 - params_.reopen_share) / states;
-  normalise(1.0 + spread([](Heading, Cell) { return 1.0; }, each));
+  normalise(1.0 + spread([](Heading, double, Cell) { return 1.0; }, each));
   has_fit_ = false;
 }
 
 void ScaleFilter::reset() {
-  start([](Heading, Cell) { return 1.0; });
+  start([](Heading, double, Cell) { return 1.0; });
 }
 
 void ScaleFilter::reset_heading(Heading heading) {
-  start([&](Heading h, Cell) { return h == heading ? 1.0 : 0.0; });
+  start([&](Heading h, double turn_rad, Cell) {
+    return turned(h, nearest_quarter(turn_rad)) == heading ? 1.0 : 0.0;
+  });
 }
 
 bool ScaleFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
                              double yaw_sigma_rad) {
-  const auto weight_of = [&](Heading heading, Cell c) {
-    return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, heading, c);
+  const auto weight_of = [&](Heading heading, double turn_rad, Cell c) {
+    return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, yaw(heading) + turn_rad,
+                       c);
   };
   bool is_near_free = false;
   for (std::size_t i = 0; i < map_.occupied().size() && !is_near_free; ++i) {
     const Cell c = map_.occupied().cell_at(i);
-    is_near_free = map_.is_free(c) && std::any_of(kHeadings.begin(), kHeadings.end(),
-                                                  [&](Heading h) { return weight_of(h, c) > 0.0; });
+    is_near_free =
+        map_.is_free(c) && std::any_of(kHeadings.begin(), kHeadings.end(),
+                                       [&](Heading h) { return weight_of(h, 0.0, c) > 0.0; });
   }
   if (is_near_free) {
     start(weight_of);
@@ -208,7 +242,11 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
              std::max<double>(1.0, static_cast<double>(evidence.frees.size()));
 }
 
-bool ScaleFilter::weigh(const RayProfile& rays, double news) {
+bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news) {
+  std::vector<RayProfile> rays;  // in the axes of each turn
+  for (int j = 0; j < turns(); ++j) {
+    rays.push_back(cast_rays(seen, yaw_rad + turn_of(j), params_.reach_m));
+  }
   // Logs first: only their differences matter, so the greatest becomes 1.
   double greatest = -std::numeric_limits<double>::infinity();
   double fit = 0.0;
@@ -219,7 +257,8 @@ bool ScaleFilter::weigh(const RayProfile& rays, double news) {
       if (support.empty()) {
         continue;
       }
-      const Evidence look = evidence(rays, sheets_[s], layer);
+      const Evidence look =
+          evidence(rays[s % static_cast<std::size_t>(turns())], sheets_[s], layer);
       std::vector<float>& log = logs[s][static_cast<std::size_t>(layer)];
       log.reserve(support.size());
       for (const std::uint32_t i : support) {
@@ -283,20 +322,16 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
     news = std::min(1.0, norm(driven) / params_.independence_m);
   } else {
     // Till now layers were headings: see start().
-    const int quarters = index(nearest_heading(T_axes_robot.yaw));
-    for (Sheet& sheet : sheets_) {
-      std::rotate(sheet.weight.begin(), sheet.weight.begin() + quarters, sheet.weight.end());
-      std::rotate(sheet.support.begin(), sheet.support.begin() + quarters, sheet.support.end());
-    }
+    turn_back(T_axes_robot.yaw);
   }
   p_odom_last_ = T_odom_robot.position();
   for (Sheet& sheet : sheets_) {
-    move(sheet, driven);
+    move(sheet, turned(driven, sheet.turn_rad));
   }
   Correction outcome = Correction::kApplied;
-  if (news > 0.0 && !weigh(cast_rays(seen, T_axes_robot.yaw, params_.reach_m), news)) {
+  if (news > 0.0 && !weigh(seen, T_axes_robot.yaw, news)) {
     // The odometry led all hypotheses into walls: the robot may be anywhere.
-    normalise(spread([](Heading, Cell) { return 1.0; }, 1.0));
+    normalise(spread([](Heading, double, Cell) { return 1.0; }, 1.0));
     has_fit_ = false;
     outcome = Correction::kContradiction;
   }
@@ -307,80 +342,6 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   yaw_rad_ = T_axes_robot.yaw;
   summarise();
   return outcome;
-}
-
-std::vector<double> ScaleFilter::scale_marginal() const {
-  std::vector<double> marginal;
-  for (const Sheet& sheet : sheets_) {
-    double mass = 0.0;
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      for (const std::uint32_t i : sheet.support[layer]) {
-        mass += static_cast<double>(sheet.weight[layer][i]);
-      }
-    }
-    marginal.push_back(mass);
-  }
-  return marginal;
-}
-
-void ScaleFilter::summarise() {
-  for (const auto& [heading, i] : shown_) {
-    belief_.layer(heading)[i] = 0.0;
-  }
-  shown_.clear();
-  belief_.set_factor(1.0);
-  const int quarters = nearest_quarter(yaw_rad_);
-  double best = -1.0;
-  int best_layer = 0;
-  std::uint32_t best_cell = 0;
-  for (int layer = 0; layer < 4; ++layer) {
-    const Heading heading = turned(static_cast<Heading>(layer), quarters);
-    std::vector<double>& shown = belief_.layer(heading);
-    for (const Sheet& sheet : sheets_) {
-      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
-        if (shown[i] == 0.0) {
-          shown_.emplace_back(heading, i);
-        }
-        shown[i] += static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
-        if (shown[i] > best) {
-          best = shown[i];
-          best_layer = layer;
-          best_cell = i;
-        }
-      }
-    }
-  }
-  estimate_ = {turned(static_cast<Heading>(best_layer), quarters), cell_of(best_cell), best};
-  // The mean of what lies within 1 m of the best cell: finer than a cell, and the scale there.
-  const double radius = 1.0 / map_.resolution();
-  const auto layer = static_cast<std::size_t>(best_layer);
-  Point2 sum;
-  double mass = 0.0;
-  double log_scale = 0.0;
-  for (const Sheet& sheet : sheets_) {
-    const Point2 offset = turned(sheet.offset, best_layer * kPi / 2.0);
-    for (const std::uint32_t i : sheet.support[layer]) {
-      const Cell c = cell_of(i);
-      const Cell off = c - estimate_.cell;
-      if (off.x * off.x + off.y * off.y <= radius * radius) {
-        const auto w = static_cast<double>(sheet.weight[layer][i]);
-        sum = sum + w * (middle_of(c) + offset);
-        log_scale += w * std::log(sheet.scale);
-        mass += w;
-      }
-    }
-  }
-  position_cells_ = (1.0 / mass) * sum;
-  scale_ = std::exp(log_scale / mass);
-  confidence_ = mass;
-}
-
-Localization ScaleFilter::localization() const {
-  const double residual = wrap_angle(yaw_rad_ - nearest_quarter(yaw_rad_) * kPi / 2.0);
-  return {belief_,         estimate_,
-          position_cells_, wrap_angle(yaw(estimate_.heading) + residual),
-          confidence_,     confidence_ >= converged_confidence_,
-          scale_,          compass_.axes_yaw_rad()};
 }
 
 }  // namespace cmn

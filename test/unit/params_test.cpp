@@ -64,5 +64,19 @@ TEST(Params, NumbersAreListedWithAllTheirDigits) {
   }
 }
 
+TEST(Params, ANumberThatMustBeAMultipleIsOne) {
+  NavigatorParams params;
+  const std::string path = "localization/scaled/headings";
+  EXPECT_THAT(load_params({{path, 36.0}}, params), testing::IsEmpty());
+  EXPECT_EQ(params.localization.scaled.headings, 36);
+  EXPECT_THAT(load_params({{path, 6.0}}, params),
+              testing::ElementsAre(path + ": 6 is none of the multiples of 4 up to 360"));
+  EXPECT_THAT(load_params({{path, 0.0}}, params),
+              testing::ElementsAre(path + ": 0 is outside [4, 360]"));
+  EXPECT_THAT(load_params({{path, 8.5}}, params),
+              testing::ElementsAre(path + ": 8.5 is not a whole number"));
+  EXPECT_EQ(params.localization.scaled.headings, 36);
+}
+
 }  // namespace
 }  // namespace cmn

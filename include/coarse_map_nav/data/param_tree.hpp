@@ -31,6 +31,11 @@ struct Between {
   double lowest;
   double highest;
 };
+/// A multiple of `of`, from `of` to `highest`.
+struct MultipleOf {
+  int of;
+  int highest;
+};
 /// One of these words.
 struct OneOf {
   std::vector<std::string> words;
@@ -56,6 +61,7 @@ class ParamLoader {
   }
   void operator()(const std::string& name, double& value, Between range, const char* doc);
   void operator()(const std::string& name, int& value, Between range, const char* doc);
+  void operator()(const std::string& name, int& value, MultipleOf range, const char* doc);
   void operator()(const std::string& name, std::uint32_t& value, Between range, const char* doc);
   void operator()(const std::string& name, bool& value, Anything any, const char* doc);
   void operator()(const std::string& name, std::string& value, const OneOf& words, const char* doc);
@@ -101,6 +107,7 @@ class ParamLister {
   }
   void operator()(const std::string& name, double value, Between range, const char* doc);
   void operator()(const std::string& name, int value, Between range, const char* doc);
+  void operator()(const std::string& name, int value, MultipleOf range, const char* doc);
   void operator()(const std::string& name, std::uint32_t value, Between range, const char* doc);
   void operator()(const std::string& name, bool value, Anything any, const char* doc);
   void operator()(const std::string& name, const std::string& value, const OneOf& words,

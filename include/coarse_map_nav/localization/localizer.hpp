@@ -37,10 +37,14 @@ class Localizer {
 /// The finer pose of a localization, in metres of the drawing.
 Pose2 pose_in_map(const CoarseMap& map, const Localization& localization);
 
-/// What weight a pose's neighbourhood gives a state: sigmas of at least half a cell and 0.1 rad; 0
-/// beyond five sigmas.
+/// What weight a pose's neighbourhood gives a state, its yaw in the axes of the grid: sigmas of at
+/// least half a cell and 0.1 rad; 0 beyond five sigmas.
 double weight_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad,
-                   const CoarseMap& map, Heading heading, Cell cell);
+                   const CoarseMap& map, double yaw_rad, Cell cell);
+inline double weight_near(const Pose2& T_map_robot, double position_sigma_m, double yaw_sigma_rad,
+                          const CoarseMap& map, Heading heading, Cell cell) {
+  return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map, yaw(heading), cell);
+}
 
 struct LocalizationParams;
 /// "discrete" (CMN, Robb), "particle" (CMN's baseline MCSE) or "scaled" (ours), by `params.filter`.

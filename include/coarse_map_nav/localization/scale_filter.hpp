@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Ours: LocalOccupancy and odometry -> a belief over scale x heading x cell.
+/// Ours: LocalOccupancy and odometry -> a belief over scale x direction x cell.
 #pragma once
 
 #include "coarse_map_nav/data/belief.hpp"
@@ -30,6 +30,9 @@ namespace cmn {
 ///    changes its cell only when the grid has moved by one. So motion alone does not blur.
 ///  - Layers stand for how the drawing lies in the odometry, and not for the robot's heading: they
 ///    do not roll. The odometry's axes are held to the walls by WallCompass.
+///  - The drawing may be turned against them by less than a quarter too (`headings` > 4): the rays
+///    are cast, and odometry is taken, in axes that are turned likewise, for each such turn. The
+///    belief that is handed out counts each direction to its nearest heading.
 ///  - Work and memory traffic follow the support of the belief.
 class ScaleFilter : public Localizer {
  public:
@@ -45,17 +48,24 @@ class ScaleFilter : public Localizer {
 
   /// P(scale), in the order of scale_of().
   std::vector<double> scale_marginal() const;
+  /// P(turn), quarter turns summed out, in the order of turn_of().
+  std::vector<double> turn_marginal() const;
   /// Mean log likelihood of the rays at the best hypothesis, averaged over the way [nats]; about 0
   /// where everything fits.
   double fit() const { return fit_; }
-  double scale_of(int i) const { return sheets_[static_cast<std::size_t>(i)].scale; }
+  double scale_of(int i) const { return sheets_[static_cast<std::size_t>(i * turns())].scale; }
+  /// How far the axes of the drawing may be turned from those that the robot keeps to: evenly
+  /// spaced in (-pi/4, pi/4], rising, 0 among them.
+  double turn_of(int j) const { return sheets_[static_cast<std::size_t>(j)].turn_rad; }
 
  private:
-  /// All hypotheses of one scale.
+  /// All hypotheses of one scale and one turn.
   struct Sheet {
     double scale = 1.0;
-    Point2 offset;  ///< of every hypothesis from the middle of its cell, in the odometry's axes
-                    ///< [cells]
+    double turn_rad = 0.0;  ///< of the robot on the drawing, beyond its yaw in the walls' axes and
+                            ///< whole quarters
+    Point2 offset;  ///< of every hypothesis from the middle of its cell, in the walls' axes turned
+                    ///< back by turn_rad [cells]
     std::array<std::vector<float>, 4> weight;           ///< by how the drawing lies; padded
     std::array<std::vector<std::uint32_t>, 4> support;  ///< cells of weight > 0
   };
@@ -66,21 +76,30 @@ class ScaleFilter : public Localizer {
     std::vector<std::ptrdiff_t> hits;  ///< offsets in the field
     std::vector<std::ptrdiff_t> frees;
   };
+  int turns() const { return params_.headings / 4; }
+  /// The heading on the drawing that is nearest to the robot's by the hypotheses of a layer.
+  Heading heading_of(const Sheet& sheet, int layer) const {
+    return turned(static_cast<Heading>(layer), nearest_quarter(yaw_rad_ + sheet.turn_rad));
+  }
   void move(Sheet& sheet, Point2 driven_m);
   void shift(Sheet& sheet, int layer, Cell by);
   void diffuse(Sheet& sheet, int layer, double share);
-  /// Weighs all cells; false when nothing is left.
-  bool weigh(const RayProfile& rays, double news);
+  /// Weighs all cells; false when nothing is left. `yaw_rad`: of the robot, in the walls' axes.
+  bool weigh(const LocalOccupancy& seen, double yaw_rad, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
   double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   void normalise(double total);
   void summarise();
+  /// Of a state: its layer's heading, the turn beyond it, its cell.
+  using Weights = std::function<double(Heading, double turn_rad, Cell)>;
   /// Layers are taken to be headings until the first look tells how the odometry lies.
-  void start(const std::function<double(Heading, Cell)>& weight_of);
+  void start(const Weights& weight_of);
+  /// That: each state is now `yaw_rad` less.
+  void turn_back(double yaw_rad);
   /// Adds `each` times the weights, and the priors of scale and rim, to all sheets; returns the
   /// sum.
-  double spread(const std::function<double(Heading, Cell)>& weight_of, double each);
+  double spread(const Weights& weight_of, double each);
   /// Nothing fits: anywhere is possible again.
   void reopen();
 
@@ -96,16 +115,17 @@ class ScaleFilter : public Localizer {
   /// Log likelihood of a ray by the error of its coded range, from -255 on.
   std::vector<float> log_of_hit_;
   std::vector<float> log_of_free_;
-  std::vector<Sheet> sheets_;
+  std::vector<Sheet> sheets_;  ///< all turns of the first scale, of the second, ...
   std::vector<float> scratch_;
   std::vector<std::uint32_t> scratch_support_;
   WallCompass compass_;
   std::optional<Point2> p_odom_last_;
-  Belief belief_;  ///< scales summed out, layers by the robot's heading
+  Belief belief_;  ///< scales and turns summed out, layers by the robot's heading
   std::vector<std::pair<Heading, std::uint32_t>> shown_;  ///< cells of belief_ that are not 0
   Estimate estimate_;
   Point2 position_cells_;
-  double yaw_rad_ = 0.0;
+  double yaw_rad_ = 0.0;       ///< of the robot in the walls' axes
+  double grid_yaw_rad_ = 0.0;  ///< of the estimate, in the axes of the grid
   double scale_ = 1.0;
   double confidence_ = 0.0;
   double fit_ = 0.0;

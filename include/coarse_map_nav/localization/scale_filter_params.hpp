@@ -12,6 +12,7 @@ namespace cmn {
 struct ScaleFilterParams {
   WallCompassParams compass;
   double reach_m = 8.0;
+  int headings = 4;
   int scales = 5;
   double least_scale = 0.7;
   double greatest_scale = 1.4;
@@ -34,6 +35,9 @@ struct ScaleFilterParams {
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("compass", self.compass);
     visit("reach_m", self.reach_m, Between{0.5, 100.0}, "[m] rays are compared up to this range");
+    visit("headings", self.headings, MultipleOf{4, 360},
+          "in how many directions, evenly spaced, the drawing may lie to the axes that the robot "
+          "keeps to; 4: as the walls do");
     visit("scales", self.scales, Between{1, 32},
           "how many scales of the drawing are believed in, evenly spaced in log; 1: the nominal");
     visit("least_scale", self.least_scale, Between{0.1, 10.0},

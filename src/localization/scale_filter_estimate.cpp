@@ -1,0 +1,124 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a ScaleFilter says of its hypotheses.
+#include "coarse_map_nav/localization/scale_filter.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace cmn {
+
+std::vector<double> ScaleFilter::scale_marginal() const {
+  std::vector<double> marginal(static_cast<std::size_t>(params_.scales), 0.0);
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      for (const std::uint32_t i : sheets_[s].support[layer]) {
+        marginal[s / static_cast<std::size_t>(turns())] +=
+            static_cast<double>(sheets_[s].weight[layer][i]);
+      }
+    }
+  }
+  return marginal;
+}
+
+std::vector<double> ScaleFilter::turn_marginal() const {
+  std::vector<double> marginal(static_cast<std::size_t>(turns()), 0.0);
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    for (std::size_t layer = 0; layer < 4; ++layer) {
+      for (const std::uint32_t i : sheets_[s].support[layer]) {
+        marginal[s % static_cast<std::size_t>(turns())] +=
+            static_cast<double>(sheets_[s].weight[layer][i]);
+      }
+    }
+  }
+  return marginal;
+}
+
+void ScaleFilter::summarise() {
+  for (const auto& [heading, i] : shown_) {
+    belief_.layer(heading)[i] = 0.0;
+  }
+  shown_.clear();
+  belief_.set_factor(1.0);
+  double best = -1.0;
+  Heading best_heading = Heading::kEast;
+  std::uint32_t best_cell = 0;
+  for (int layer = 0; layer < 4; ++layer) {
+    for (const Sheet& sheet : sheets_) {
+      const Heading heading = heading_of(sheet, layer);
+      std::vector<double>& shown = belief_.layer(heading);
+      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
+        if (shown[i] == 0.0) {
+          shown_.emplace_back(heading, i);
+        }
+        shown[i] += static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
+        if (shown[i] > best) {
+          best = shown[i];
+          best_heading = heading;
+          best_cell = i;
+        }
+      }
+    }
+  }
+  estimate_ = {best_heading, cell_of(best_cell), best};
+
+  // Which way the robot faces there, finer than a heading.
+  float most = -1.0F;
+  double facing_rad = 0.0;
+  for (int layer = 0; layer < 4; ++layer) {
+    for (const Sheet& sheet : sheets_) {
+      const float weight = sheet.weight[static_cast<std::size_t>(layer)][best_cell];
+      if (weight > most && heading_of(sheet, layer) == best_heading) {
+        most = weight;
+        const double beyond_rad = yaw_rad_ + sheet.turn_rad;
+        facing_rad =
+            yaw(best_heading) + wrap_angle(beyond_rad - nearest_quarter(beyond_rad) * kPi / 2.0);
+      }
+    }
+  }
+  // The mean of what lies within 1 m of the best cell and faces about the same way: finer than a
+  // cell, and the scale there. By direction, not by heading: a robot that faces a diagonal is in
+  // one place yet.
+  const double radius = 1.0 / map_.resolution();
+  constexpr double kSameWay_rad = kPi / 4.0 - 1e-6;
+  Point2 sum;
+  double mass = 0.0;
+  double log_scale = 0.0;
+  double off_rad = 0.0;
+  for (int layer = 0; layer < 4; ++layer) {
+    for (const Sheet& sheet : sheets_) {
+      const double aside_rad =
+          wrap_angle(yaw_rad_ + layer * kPi / 2.0 + sheet.turn_rad - facing_rad);
+      if (std::abs(aside_rad) > kSameWay_rad) {
+        continue;
+      }
+      const Point2 offset = turned(sheet.offset, layer * kPi / 2.0);
+      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
+        const Cell c = cell_of(i);
+        const Cell off = c - estimate_.cell;
+        if (off.x * off.x + off.y * off.y <= radius * radius) {
+          const auto w = static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
+          sum = sum + w * (middle_of(c) + offset);
+          log_scale += w * std::log(sheet.scale);
+          off_rad += w * aside_rad;
+          mass += w;
+        }
+      }
+    }
+  }
+  position_cells_ = (1.0 / mass) * sum;
+  scale_ = std::exp(log_scale / mass);
+  // With quarter turns alone aside_rad is nothing but rounding.
+  grid_yaw_rad_ = wrap_angle(turns() == 1 ? facing_rad : facing_rad + off_rad / mass);
+  confidence_ = mass;
+}
+
+Localization ScaleFilter::localization() const {
+  return {belief_,         estimate_,
+          position_cells_, grid_yaw_rad_,
+          confidence_,     confidence_ >= converged_confidence_,
+          scale_,          compass_.axes_yaw_rad()};
+}
+
+}  // namespace cmn
