@@ -19,7 +19,7 @@ struct Name {
   const char* shown;
 };
 
-constexpr std::array<Name, 9> kTasks{{
+constexpr std::array<Name, 13> kTasks{{
     {"CG", "coarse-grid map, true 3 x 3 crop of it seen, known yaw"},
     {"CI", "coarse-grid map, four RGB images, known yaw"},
     {"HD", "hand-drawn map, four RGB images, known yaw"},
@@ -29,6 +29,10 @@ constexpr std::array<Name, 9> kTasks{{
     {"HL", "hand-drawn map, LiDAR 360 deg, unknown yaw"},
     {"WL", "walls-only map, LiDAR 360 deg, unknown yaw"},
     {"TL", "coarse map turned by 7 deg, LiDAR 360 deg, unknown yaw"},
+    {"CLK", "coarse-grid map, LiDAR 360 deg, unknown yaw, kidnapped once"},
+    {"CFK", "coarse-grid map, looking forward only, unknown yaw, kidnapped once"},
+    {"HLK", "hand-drawn map, LiDAR 360 deg, unknown yaw, kidnapped once"},
+    {"WLK", "walls-only map, LiDAR 360 deg, unknown yaw, kidnapped once"},
 }};
 
 constexpr std::array<Name, 8> kMethods{{
@@ -78,7 +82,7 @@ std::vector<EpisodeTable> episode_tables(const std::vector<EpisodeRow>& rows) {
 std::vector<std::string> methods_of(const std::vector<EpisodeRow>& rows) {
   std::set<std::pair<std::size_t, std::string>> ranked;
   for (const EpisodeRow& row : rows) {
-    ranked.emplace(rank_in(kMethods, row.key.method), row.key.method);
+    ranked.emplace(rank_in(kMethods, base_method(row.key.method)), row.key.method);
   }
   std::vector<std::string> methods;
   for (const auto& [rank, method] : ranked) {
@@ -89,6 +93,18 @@ std::vector<std::string> methods_of(const std::vector<EpisodeRow>& rows) {
 
 std::vector<EpisodeRow> of_method(const std::vector<EpisodeRow>& rows, const std::string& method) {
   return where(rows, [&](const EpisodeRow& row) { return row.key.method == method; });
+}
+
+std::string base_method(const std::string& method) { return method.substr(0, method.find('+')); }
+
+std::vector<EpisodeRow> without_variants(const std::vector<EpisodeRow>& rows) {
+  std::vector<EpisodeRow> whole = where(
+      rows, [](const EpisodeRow& row) { return base_method(row.key.method) == row.key.method; });
+  return whole.empty() ? rows : whole;
+}
+
+std::vector<EpisodeRow> played(const std::vector<EpisodeRow>& rows) {
+  return where(rows, [](const EpisodeRow& row) { return row.end != kNoRoute; });
 }
 
 std::string building_of(const std::string& world) {
@@ -115,7 +131,11 @@ std::vector<EpisodeRow> of_building(const std::vector<EpisodeRow>& rows,
 
 std::string method_label(const std::string& method) {
   const std::size_t rank = rank_in(kMethods, method);
-  return rank < kMethods.size() ? kMethods[rank].shown : method;
+  if (rank < kMethods.size()) {
+    return kMethods[rank].shown;
+  }
+  const std::string base = base_method(method);
+  return base == method ? method : method_label(base) + method.substr(base.size());
 }
 
 std::string task_title(const std::string& task) {

@@ -45,9 +45,18 @@ void visit_columns(Row& row, Visitor&& visit) {
   visit("closest_m", row.closest_m);
   visit("step_ms", row.step_ms);
   visit("end", row.end);
+  visit("drop_actions", row.drop_actions);
+  visit("drop_x", row.T_world_drop.x);
+  visit("drop_y", row.T_world_drop.y);
+  visit("drop_yaw", row.T_world_drop.yaw);
+  visit("drop_driven_m", row.drop_driven_m);
+  visit("drop_shortest_m", row.drop_shortest_m);
+  visit("recovered_actions", row.recovered_actions);
+  visit("confidence", row.confidence);
 }
 
 std::string text_of(const std::string& value) { return value; }
+std::string text_of(const ConfidenceBins& value) { return value.text(); }
 std::string text_of(bool value) { return value ? "1" : "0"; }
 std::string text_of(int value) { return std::to_string(value); }
 std::string text_of(std::uint64_t value) { return std::to_string(value); }
@@ -58,6 +67,7 @@ std::string text_of(double value) {
 }
 
 void parse(const std::string& text, std::string& value) { value = text; }
+void parse(const std::string& text, ConfidenceBins& value) { value = ConfidenceBins::parse(text); }
 template <class Number>
 void parse(const std::string& text, Number& value) {
   std::size_t used = 0;
@@ -132,7 +142,12 @@ bool operator<(const EpisodeKey& a, const EpisodeKey& b) { return order_of(a) < 
 bool operator==(const EpisodeKey& a, const EpisodeKey& b) { return order_of(a) == order_of(b); }
 
 double EpisodeRow::spl() const {
-  return is_success ? shortest_m / std::max(shortest_m, success_driven_m) : 0.0;
+  if (!is_success) {
+    return 0.0;
+  }
+  const bool is_dropped = drop_actions >= 0;
+  const double least_m = is_dropped ? drop_shortest_m : shortest_m;
+  return least_m / std::max(least_m, success_driven_m - (is_dropped ? drop_driven_m : 0.0));
 }
 
 std::string csv_header() {

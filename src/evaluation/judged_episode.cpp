@@ -122,59 +122,8 @@ bool is_an_end(NavigationState state) {
   return state == NavigationState::kReached || state == NavigationState::kFailed;
 }
 
-/// Fills in what the judge sees at the start and after each action.
-class Judge {
- public:
-  Judge(const JudgeParams& params, const Route& route, const EpisodeKey& key) : params_{params} {
-    row_.key = key;
-    row_.T_world_start = route.T_world_start;
-    row_.goal_world = route.goal_world;
-    row_.shortest_m = route.shortest_m;
-    row_.closest_m = norm(route.T_world_start.position() - route.goal_world);
-  }
-
-  void look_at(const StepDrive& robot) {
-    const double off_m = off_goal_m(robot);
-    row_.closest_m = std::min(row_.closest_m, off_m);
-    row_.driven_m = robot.driven_m();
-    row_.collisions = robot.collisions();
-    if (!row_.is_success && off_m < params_.success_radius_m) {
-      row_.is_success = true;
-      row_.success_driven_m = robot.driven_m();
-      row_.success_actions = row_.actions;
-    }
-  }
-  void look_at(const Localization& at, const CoarseMap& map, const Pose2& T_map_true) {
-    if (!at.is_converged || at.confidence < params_.converged_confidence ||
-        row_.converged_actions >= 0) {
-      return;
-    }
-    row_.converged_actions = row_.actions;
-    row_.converged_driven_m = row_.driven_m;
-    const double off_m = norm(map.center_of(at.estimate.cell) - T_map_true.position());
-    const Heading heading = nearest_heading(T_map_true.yaw - map.T_map_grid().yaw);
-    row_.is_falsely_converged = off_m > kRightWithin_m || at.estimate.heading != heading;
-  }
-  /// The robot says that it has arrived; the first word counts.
-  void hear_reached(const StepDrive& robot) {
-    if (!row_.is_declared) {
-      row_.is_declared = true;
-      row_.is_declared_right = off_goal_m(robot) <= params_.declared_radius_m;
-    }
-  }
-  void count_action() { ++row_.actions; }
-  EpisodeRow& row() { return row_; }
-
- private:
-  static constexpr double kRightWithin_m = 1.0;
-
-  double off_goal_m(const StepDrive& robot) const {
-    return norm(robot.truth().position() - row_.goal_world);
-  }
-
-  JudgeParams params_;
-  EpisodeRow row_;
-};
+/// Seed of where a kidnapped robot is put down.
+constexpr std::uint64_t kDropSalt = 0x6b69646e6170706dU;
 
 }  // namespace
 
@@ -229,12 +178,22 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   auto* told = dynamic_cast<GivenPose*>(owned.get());
   Navigator navigator{given.map, params, std::move(owned)};
 
-  Judge the_judge{judge, route, key};
+  Judge the_judge{judge, route, key, task.kidnaps};
   EpisodeRow& row = the_judge.row();
   if (const auto reason = navigator.planner().set_goal(goal.position())) {
     row.end = "goal refused";
     return row;
   }
+  const auto kidnap = [&] {
+    const auto there =
+        sample_drop(scene.routes, judge, robot.truth(), route.goal_world, key.seed ^ kDropSalt);
+    if (there) {
+      the_judge.drop(robot, *there);
+    } else {
+      the_judge.give_up_kidnapping();
+    }
+    return there.has_value();
+  };
   MotionOutcome last_outcome = MotionOutcome::kSucceeded;
   double thinking_s = 0.0;
   int steps = 0;
@@ -255,7 +214,7 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     thinking_s += clock_s() - before_s;
     ++steps;
     const Localization at = navigator.localizer().localization();
-    the_judge.look_at(at, given.map, T_map_true);
+    the_judge.look_at(at, given.map, T_map_true, told == nullptr);
     if (recorder) {
       const Pose2 T_map_estimate = estimated_pose(at, given.map);
       recorder({robot.truth(), at, T_map_true, T_map_estimate, given.to_world(T_map_estimate),
@@ -269,7 +228,13 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     row.end = decision.state == NavigationState::kReached ? "reached"
               : is_at_horizon                             ? "horizon"
                                                           : "failed";
-    if (is_an_end(decision.state)) {
+    const bool is_over = is_an_end(decision.state);
+    if (is_over && !is_at_horizon && the_judge.is_before_drop() && kidnap()) {
+      navigator.planner().set_goal(goal.position());
+      last_outcome = MotionOutcome::kSucceeded;
+      continue;
+    }
+    if (is_over) {
       if (!method.ends_by_judge) {
         break;
       }
@@ -283,7 +248,11 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     last_outcome = robot.carry_out(decision.action);
     the_judge.count_action();
     the_judge.look_at(robot);
+    if (the_judge.is_time_to_kidnap(robot)) {
+      kidnap();
+    }
   }
+  the_judge.end();
   row.step_ms = 1000.0 * thinking_s / steps;
   return row;
 }

@@ -15,6 +15,8 @@
 namespace cmn {
 namespace {
 
+/// Stands for an action that never came.
+constexpr double kLater = 1e9;
 constexpr double kNormal975 = 1.959963984540054;  ///< 97.5 % of a normal variable lie below it
 
 double mean(const std::vector<double>& values) {
@@ -56,6 +58,29 @@ Figure wilson_share(int successes, int trials) {
   return {p, successes == 0 ? 0.0 : middle - half, successes == trials ? 1.0 : middle + half};
 }
 
+Figure paired_difference(int both, int only_first, int only_second, int neither) {
+  const int trials = both + only_first + only_second + neither;
+  if (trials == 0) {
+    return {};
+  }
+  const double n = trials;
+  const Figure first = wilson_share(both + only_first, trials);
+  const Figure second = wilson_share(both + only_second, trials);
+  // How the two go together, with a continuity correction where they do.
+  const double margins = static_cast<double>(both + only_first) * (only_second + neither) *
+                         static_cast<double>(both + only_second) * (only_first + neither);
+  const double product =
+      static_cast<double>(both) * neither - static_cast<double>(only_first) * only_second;
+  const double corrected = product > 0.0 ? std::max(0.0, product - n / 2.0) : product;
+  const double phi = margins > 0.0 ? corrected / std::sqrt(margins) : 0.0;
+  const auto span = [phi](double a, double b) {
+    return std::sqrt(std::max(0.0, a * a - 2.0 * phi * a * b + b * b));
+  };
+  const double difference = first.value - second.value;
+  return {difference, difference - span(first.value - first.low, second.high - second.value),
+          difference + span(first.high - first.value, second.value - second.low)};
+}
+
 Figure bootstrap_mean(std::vector<double> values, std::uint64_t seed, int resamples) {
   assert(resamples > 0);
   if (values.empty()) {
@@ -93,6 +118,8 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
   double driven_m = 0.0;
   double actions = 0.0;
   double time_ms = 0.0;
+  int recoveries = 0;
+  std::vector<double> recovered_actions;
   std::vector<double> spl;
   std::vector<double> converged_actions;
   std::vector<double> converged_driven_m;
@@ -105,6 +132,10 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
     actions += row.actions;
     time_ms += row.actions * row.step_ms;
     spl.push_back(row.spl());
+    if (row.drop_actions >= 0) {
+      recoveries += row.recovered_actions >= 0;
+      recovered_actions.push_back(row.recovered_actions >= 0 ? row.recovered_actions : kLater);
+    }
     if (row.converged_actions >= 0) {
       false_convergences += row.is_falsely_converged;
       converged_actions.push_back(row.converged_actions);
@@ -122,6 +153,12 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
   metrics.falsely_converged = wilson_share(false_convergences, converged);
   metrics.median_converged_actions = median(std::move(converged_actions));
   metrics.median_converged_driven_m = median(std::move(converged_driven_m));
+  metrics.kidnapped = static_cast<int>(recovered_actions.size());
+  metrics.recovered = wilson_share(recoveries, metrics.kidnapped);
+  const double middle = median(std::move(recovered_actions));
+  if (middle < 0.5 * kLater) {
+    metrics.median_recovered_actions = middle;
+  }
   if (driven_m > 0.0) {
     metrics.collisions_per_100_m = 100.0 * collisions / driven_m;
   }
@@ -140,21 +177,28 @@ PairedSuccess paired_success(const std::vector<EpisodeRow>& first,
     key.method.clear();
     return key;
   };
-  std::map<EpisodeKey, bool> successes;
+  std::map<EpisodeKey, const EpisodeRow*> others;
   for (const EpisodeRow& row : second) {
-    successes[without_method(row.key)] = row.is_success;
+    others[without_method(row.key)] = &row;
   }
   PairedSuccess pairs;
+  std::vector<double> spl;
   for (const EpisodeRow& row : first) {
-    const auto other = successes.find(without_method(row.key));
-    if (other != successes.end()) {
+    const auto found = others.find(without_method(row.key));
+    if (found != others.end()) {
+      const EpisodeRow& other = *found->second;
       ++pairs.episodes;
-      pairs.only_first += row.is_success && !other->second;
-      pairs.only_second += !row.is_success && other->second;
+      pairs.only_first += row.is_success && !other.is_success;
+      pairs.only_second += !row.is_success && other.is_success;
+      pairs.both += row.is_success && other.is_success;
+      spl.push_back(row.spl() - other.spl());
     }
   }
   const int n = pairs.only_first + pairs.only_second;
   pairs.p_value = std::min(1.0, 2.0 * fair_tail(std::min(pairs.only_first, pairs.only_second), n));
+  pairs.difference = paired_difference(pairs.both, pairs.only_first, pairs.only_second,
+                                       pairs.episodes - pairs.both - n);
+  pairs.spl_difference = bootstrap_mean(std::move(spl));
   return pairs;
 }
 

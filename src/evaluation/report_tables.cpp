@@ -25,34 +25,14 @@ std::string text_of(const char* format, Values... values) {
   return text.data();
 }
 
-constexpr const char* kNothing = "-";
-
-/// A number, or a dash where there is none.
-std::string number(const char* format, double value) {
-  return std::isnan(value) ? kNothing : text_of(format, value);
-}
-std::string percent(double share) { return number("%.1f", 100.0 * share); }
-/// "81.0 (66.9-90.2)", all in per cent.
-std::string with_interval(const Figure& figure) {
-  return std::isnan(figure.value) ? kNothing
-                                  : text_of("%.1f (%.1f-%.1f)", 100.0 * figure.value,
-                                            100.0 * figure.low, 100.0 * figure.high);
-}
 /// "81.0 / 64.2": SR and SPL in per cent, as the papers print them.
 std::string success_and_spl(const Rows& rows) {
   const Metrics metrics = metrics_of(rows);
-  return rows.empty() ? kNothing
-                      : percent(metrics.success.value) + " / " + percent(metrics.spl.value);
+  return rows.empty()
+             ? kNoNumber
+             : percent_text(metrics.success.value) + " / " + percent_text(metrics.spl.value);
 }
 
-/// A vertical bar would end the cell.
-std::string cell_text(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
-  }
-  return result;
-}
 /// Methods that lack episodes which others have run: their rows cannot be laid side by side.
 std::string unequal_methods(const EpisodeTable& table) {
   std::map<std::string, std::size_t> counts;
@@ -72,30 +52,15 @@ std::string unequal_methods(const EpisodeTable& table) {
 
 }  // namespace
 
-std::string table_row(const std::vector<std::string>& cells) {
-  std::string line = "|";
-  for (const std::string& cell : cells) {
-    line += " " + cell_text(cell) + " |";
-  }
-  return line + "\n";
-}
-std::string table_head(const std::vector<std::string>& cells) {
-  std::string line = table_row(cells) + "|---|";
-  for (std::size_t i = 1; i < cells.size(); ++i) {
-    line += "---:|";
-  }
-  return line + "\n";
-}
-
 std::string success_table(const EpisodeTable& table) {
   std::string text =
       unequal_methods(table) + table_head({"method", "N", "SR [%]", "SPL [%]", "declared SR [%]",
                                            "declared elsewhere [%]", "actions"});
   for (const std::string& method : methods_of(table.rows)) {
     const Metrics m = metrics_of(of_method(table.rows, method));
-    text += table_row({method_label(method), std::to_string(m.episodes), with_interval(m.success),
-                       with_interval(m.spl), percent(m.declared_right.value),
-                       percent(m.declared_wrong.value), number("%.0f", m.mean_actions)});
+    text += table_row({method_label(method), std::to_string(m.episodes), interval_text(m.success),
+                       interval_text(m.spl), percent_text(m.declared_right.value),
+                       percent_text(m.declared_wrong.value), number_text("%.0f", m.mean_actions)});
   }
   return text + "\n";
 }
@@ -106,9 +71,10 @@ std::string cost_table(const EpisodeTable& table) {
   for (const std::string& method : methods_of(table.rows)) {
     const Metrics m = metrics_of(of_method(table.rows, method));
     text += table_row(
-        {method_label(method), percent(m.converged.value), with_interval(m.falsely_converged),
-         number("%.0f", m.median_converged_actions), number("%.1f", m.median_converged_driven_m),
-         number("%.1f", m.collisions_per_100_m), number("%.2f", m.step_ms)});
+        {method_label(method), percent_text(m.converged.value), interval_text(m.falsely_converged),
+         number_text("%.0f", m.median_converged_actions),
+         number_text("%.1f", m.median_converged_driven_m),
+         number_text("%.1f", m.collisions_per_100_m), number_text("%.2f", m.step_ms)});
   }
   return text + "\n";
 }
@@ -138,6 +104,21 @@ std::string building_table(const EpisodeTable& table) {
     text += table_row(cells);
   }
   return text + "\n";
+}
+
+std::string kidnap_table(const EpisodeTable& table) {
+  std::string text =
+      table_head({"kidnapped", "N", "recovered [%]", "actions after the drop, median",
+                  "at the goal then [%]", "declared elsewhere [%]"});
+  bool has_any = false;
+  for (const std::string& method : methods_of(table.rows)) {
+    const Metrics m = metrics_of(of_method(table.rows, method));
+    has_any = has_any || m.kidnapped > 0;
+    text += table_row({method_label(method), std::to_string(m.kidnapped),
+                       interval_text(m.recovered), number_text("%.0f", m.median_recovered_actions),
+                       percent_text(m.success.value), percent_text(m.declared_wrong.value)});
+  }
+  return has_any ? text + "\n" : "";
 }
 
 std::string paired_table(const EpisodeTable& table) {
@@ -181,13 +162,13 @@ std::string paper_table(const std::vector<EpisodeTable>& tables) {
     std::vector<std::string> cells{method_label(method)};
     for (std::size_t i = 0; i < kPaperMpps.size(); ++i) {
       cells.push_back(figure == figures.end()
-                          ? kNothing
+                          ? kNoNumber
                           : text_of("%.1f / %.1f", figure->at_mpps[i].success_percent,
                                     figure->at_mpps[i].spl_percent));
       const auto table = std::find_if(tables.begin(), tables.end(), [&](const EpisodeTable& t) {
         return std::abs(t.mpp - kPaperMpps[i]) < 1e-6;
       });
-      cells.push_back(table == tables.end() ? kNothing
+      cells.push_back(table == tables.end() ? kNoNumber
                                             : success_and_spl(of_method(table->rows, method)));
     }
     text += table_row(cells);

@@ -132,13 +132,43 @@ std::optional<Route> RouteSampler::sample(double least_m, double most_m,
       continue;
     }
     const Cell goal = goals[draw_index(rng, goals.size())];
-    const Point2 p = to_world(start);
-    const auto quarter = static_cast<int>(draw_index(rng, 4));
-    return Route{{p.x, p.y, wrap_angle(T_world_grid_.yaw + quarter * kPi / 2.0)},
-                 to_world(goal),
-                 ways(goal) / kUnitsPerMetre};
+    return route(start, to_world(goal), draw_index(rng, 4), ways(goal));
   }
   return std::nullopt;
+}
+
+std::optional<Route> RouteSampler::sample_to(Point2 goal_world, double least_m, double most_m,
+                                             const std::function<bool(Point2)>& may_be_start,
+                                             std::mt19937_64& rng) const {
+  const Point2 p = inverse(T_world_grid_) * goal_world;
+  const Cell goal{static_cast<int>(std::floor(p.x / kCell_m)) + 1,
+                  static_cast<int>(std::floor(p.y / kCell_m)) + 1};
+  if (goal.x < 1 || goal.y < 1 || goal.x + 1 >= is_drivable_.width() ||
+      goal.y + 1 >= is_drivable_.height()) {
+    return std::nullopt;
+  }
+  const Grid<std::int32_t> ways = ways_from(goal, most_m);
+  std::vector<Cell> starts;
+  for (const Cell c : cells_) {
+    if (ways(c) != kFar && ways(c) >= least_m * kUnitsPerMetre) {
+      starts.push_back(c);
+    }
+  }
+  for (int i = 0; i < kStarts && !starts.empty(); ++i) {
+    const Cell start = starts[draw_index(rng, starts.size())];
+    const std::size_t quarter = draw_index(rng, 4);
+    if (may_be_start(to_world(start))) {
+      return route(start, goal_world, quarter, ways(start));
+    }
+  }
+  return std::nullopt;
+}
+
+Route RouteSampler::route(Cell start, Point2 goal_world, std::size_t quarter,
+                          std::int32_t way) const {
+  const Point2 p = to_world(start);
+  const double yaw = wrap_angle(T_world_grid_.yaw + static_cast<double>(quarter) * kPi / 2.0);
+  return {{p.x, p.y, yaw}, goal_world, way / kUnitsPerMetre};
 }
 
 }  // namespace cmn

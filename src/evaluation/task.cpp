@@ -19,6 +19,10 @@ const std::vector<Task>& tasks() {
       {"HL", D::kHandDrawn, O::kLidar, false, false},
       {"WL", D::kWallsOnly, O::kLidar, false, false},
       {"TL", D::kTurnedGrid, O::kLidar, false, false},
+      {"CLK", D::kCoarseGrid, O::kLidar, false, false, true},
+      {"CFK", D::kCoarseGrid, O::kForwardLidar, false, false, true},
+      {"HLK", D::kHandDrawn, O::kLidar, false, false, true},
+      {"WLK", D::kWallsOnly, O::kLidar, false, false, true},
   };
   return kTasks;
 }

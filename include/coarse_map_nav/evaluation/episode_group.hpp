@@ -22,9 +22,20 @@ struct EpisodeTable {
 /// name; within a task from the finest drawing to the coarsest.
 std::vector<EpisodeTable> episode_tables(const std::vector<EpisodeRow>& rows);
 
-/// The methods that occur: ours, cmn, robb, mcse, rmn, rnd, true_pose, oracle, then others by name.
+/// The methods that occur: ours, cmn, robb, mcse, rmn, rnd, true_pose, oracle, then others by name;
+/// variants after their base.
 std::vector<std::string> methods_of(const std::vector<EpisodeRow>& rows);
 std::vector<EpisodeRow> of_method(const std::vector<EpisodeRow>& rows, const std::string& method);
+
+/// The method of which a method is a variant: rolling of rolling+no_map_repair; of others itself.
+std::string base_method(const std::string& method);
+/// Without variants; when there are only variants, those.
+std::vector<EpisodeRow> without_variants(const std::vector<EpisodeRow>& rows);
+
+/// What `end` says of an episode for which no start and goal were found. It belongs in no table.
+constexpr const char* kNoRoute = "no route";
+/// Those that were played.
+std::vector<EpisodeRow> played(const std::vector<EpisodeRow>& rows);
 
 /// The column of a world: its own name, all generated houses (house:SEED) together being "houses".
 std::string building_of(const std::string& world);

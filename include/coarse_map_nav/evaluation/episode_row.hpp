@@ -5,6 +5,7 @@
 #pragma once
 
 #include "coarse_map_nav/data/geometry.hpp"
+#include "coarse_map_nav/evaluation/confidence_bins.hpp"
 
 #include <cstdint>
 #include <iosfwd>
@@ -16,7 +17,7 @@ namespace cmn {
 
 /// What names an episode; all that a replay needs beside the worlds and the options of the run.
 struct EpisodeKey {
-  std::string task;   ///< CG, CL, CF, HL, WL
+  std::string task;   ///< CG, CL, CF, HL, WL, and CLK to WLK
   std::string world;  ///< name of a building, or house:SEED
   double mpp = 0.4;   ///< [m/cell] of the drawing
   std::string method;
@@ -55,9 +56,21 @@ struct EpisodeRow {
   int collisions = 0;
   double closest_m = kNever;  ///< to the goal, ever
   double step_ms = 0.0;       ///< mean wall time of see + believe + plan; not reproducible
-  std::string end;            ///< reached, failed, horizon, success (the judge's), goal refused
+  std::string end;            ///< reached, failed, horizon, success (the judge's), goal refused,
+                              ///< no route
 
-  /// S * l / max(l, p) (Anderson et al. 2018, "On Evaluation of Embodied Navigation Agents").
+  ConfidenceBins confidence;  ///< of all looks, but of a method that is told its pose
+
+  // Of an episode in which the robot is kidnapped: success and declaration count from then on.
+  int drop_actions = -1;  ///< done before
+  Pose2 T_world_drop{kNever, kNever, kNever};
+  double drop_driven_m = kNever;    ///< before
+  double drop_shortest_m = kNever;  ///< l of SPL: from there
+  /// After the drop, until the belief had converged to the right place and stayed.
+  int recovered_actions = -1;
+
+  /// S * l / max(l, p) (Anderson et al. 2018, "On Evaluation of Embodied Navigation Agents"); of a
+  /// kidnapped robot from the drop on.
   double spl() const;
 };
 

@@ -6,6 +6,7 @@
 
 #include "coarse_map_nav/evaluation/drawing.hpp"
 #include "coarse_map_nav/evaluation/episode_row.hpp"
+#include "coarse_map_nav/evaluation/judge.hpp"
 #include "coarse_map_nav/evaluation/method.hpp"
 #include "coarse_map_nav/evaluation/route_sampler.hpp"
 #include "coarse_map_nav/evaluation/task.hpp"
@@ -16,17 +17,6 @@
 #include <vector>
 
 namespace cmn {
-
-struct JudgeParams {
-  double success_radius_m = 0.4;   ///< CMN's released parameters
-  double declared_radius_m = 1.0;  ///< of a REACHED that counts as right
-  /// From here on a belief counts as converged, whatever the method itself makes of it: some act on
-  /// their estimate from the first step on.
-  double converged_confidence = 0.5;
-  double least_way_m = 3.0;
-  double most_way_m = 20.0;
-  SimulationParams simulation;
-};
 
 /// A world that episodes are played in, made ready once.
 struct Scene {

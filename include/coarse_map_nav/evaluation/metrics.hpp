@@ -47,16 +47,28 @@ struct Metrics {
   double median_converged_driven_m = EpisodeRow::kNever;  ///< among those that converged
   double collisions_per_100_m = EpisodeRow::kNever;       ///< NaN when nothing was driven
   double mean_actions = EpisodeRow::kNever;
+  int kidnapped = 0;  ///< episodes in which the robot was carried elsewhere
+  Figure recovered;   ///< share of those
+  /// After the drop, those that never recovered counted as later than all; NaN when half did not.
+  double median_recovered_actions = EpisodeRow::kNever;
   double step_ms = EpisodeRow::kNever;  ///< mean over all actions of all episodes
 };
 
 Metrics metrics_of(const std::vector<EpisodeRow>& rows);
+
+/// The difference of two shares of the same trials: `both` succeeded in both, `only_first` ...;
+/// with the interval of method 10 of Newcombe (1998), "Improved confidence intervals for the
+/// difference between binomial proportions based on paired data".
+Figure paired_difference(int both, int only_first, int only_second, int neither);
 
 /// How often one method succeeded where another failed, on the same episodes.
 struct PairedSuccess {
   int episodes = 0;  ///< that both have run
   int only_first = 0;
   int only_second = 0;
+  int both = 0;
+  Figure difference;      ///< SR of the first less that of the second
+  Figure spl_difference;  ///< mean, with its bootstrap interval over episodes
   /// Two-sided exact sign test on the episodes in which they differ (McNemar 1947); 1 for none.
   double p_value = 1.0;
 };

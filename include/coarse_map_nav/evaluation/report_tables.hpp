@@ -5,16 +5,12 @@
 #pragma once
 
 #include "coarse_map_nav/evaluation/episode_group.hpp"
+#include "coarse_map_nav/evaluation/table_text.hpp"
 
 #include <string>
 #include <vector>
 
 namespace cmn {
-
-/// One line of a table; bars and line ends in the cells are made harmless.
-std::string table_row(const std::vector<std::string>& cells);
-/// The head of a table whose first column is left-aligned, the others right-aligned.
-std::string table_head(const std::vector<std::string>& cells);
 
 /// A method a row: N, SR and SPL with 95 % intervals, what the robot itself declared. Preceded by a
 /// warning when methods have not all run the same episodes.
@@ -23,6 +19,9 @@ std::string success_table(const EpisodeTable& table);
 std::string cost_table(const EpisodeTable& table);
 /// A method a row, a building a column: SR / SPL.
 std::string building_table(const EpisodeTable& table);
+/// A method a row: of the episodes with a kidnapping, how many found out where they were and after
+/// how many actions; empty when there are none.
+std::string kidnap_table(const EpisodeTable& table);
 /// The first method against each other one, on the episodes that both have run; empty for one.
 std::string paired_table(const EpisodeTable& table);
 /// SR / SPL of the CMN paper beside those of all tables of one task; empty when it has none.

@@ -39,6 +39,11 @@ class RouteSampler {
   std::optional<Route> sample(double least_m, double most_m,
                               const std::function<bool(Point2)>& may_be_goal,
                               std::mt19937_64& rng) const;
+  /// Likewise to a given goal; `may_be_start` refuses starts, which are drawn in the same order
+  /// whatever it says.
+  std::optional<Route> sample_to(Point2 goal_world, double least_m, double most_m,
+                                 const std::function<bool(Point2)>& may_be_start,
+                                 std::mt19937_64& rng) const;
   /// Free ground of the largest drivable region [m2].
   double drivable_m2() const;
 
@@ -46,6 +51,7 @@ class RouteSampler {
   /// Whole tenths of a millimetre from `from` to every cell within `most_m`; kFar beyond.
   Grid<std::int32_t> ways_from(Cell from, double most_m) const;
   Point2 to_world(Cell c) const;
+  Route route(Cell start, Point2 goal_world, std::size_t quarter, std::int32_t way) const;
 
   Pose2 T_world_grid_;
   Grid<std::uint8_t> is_drivable_;  ///< one cell of border, not drivable

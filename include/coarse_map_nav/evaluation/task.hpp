@@ -29,6 +29,8 @@ struct Task {
   /// Of CMN in Habitat: the map is of where the robot's middle can be, the robot slides along walls
   /// and has no obstacle guard, and each method has its own planner.
   bool has_paper_setting = false;
+  /// Once the robot is carried elsewhere, and its odometry does not notice (KidnapParams).
+  bool kidnaps = false;
 };
 
 /// Throws std::invalid_argument naming the known tasks.

@@ -63,6 +63,22 @@ TEST(EpisodeRow, SplWeighsSuccessByTheShortestWay) {
   EXPECT_DOUBLE_EQ(failed_episode().spl(), 0.0);
 }
 
+TEST(EpisodeRow, OfAKidnappedRobotSplCountsFromTheDrop) {
+  EpisodeRow row = successful_episode(4.0, 15.0);
+  row.drop_actions = 60;
+  row.drop_driven_m = 7.0;
+  row.drop_shortest_m = 6.0;
+  EXPECT_DOUBLE_EQ(row.spl(), 0.75);
+  row.recovered_actions = 12;
+  row.T_world_drop = {1.5, -2.0, 0.5};
+  row.confidence.add(0.25, false);
+  row.confidence.add(0.97, true);
+  const EpisodeRow read = read_back(csv_of({row})).front();
+  EXPECT_EQ(csv_line(read), csv_line(row));
+  EXPECT_EQ(read.confidence.looks(), 2);
+  EXPECT_EQ(read.T_world_drop.y, -2.0);
+}
+
 TEST(EpisodeKey, IsWhatItsNameSays) {
   for (const char* world : {"intel", "freiburg-079", "house:17", "a-1-b"}) {
     const EpisodeKey key{"CL", world, 0.45, "true_pose", 170, 0};

@@ -220,6 +220,79 @@ TEST(JudgedEpisode, TheTruthThatARecorderSeesLiesOnTheMapOfTheMethod) {
   }
 }
 
+TEST(JudgedEpisode, AKidnappedRobotIsPutDownElsewhereOnceAndJudgedFromThereOn) {
+  const JudgeParams judge;
+  const Scene scene = flat(judge);
+  const Drawing drawing = draw(find_task("CLK"), scene.map, nullptr, 0.5, 1, 0.18);
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto route = sample_route(scene, drawing, judge, seed);
+    ASSERT_TRUE(route);
+    Setting setting;
+    setting.task = "CLK";
+    setting.method = "true_pose";
+    setting.seed = seed;
+    std::vector<Pose2> places;
+    std::vector<Pose2> counted;
+    const EpisodeRow row = run(scene, *route, setting, [&](const EpisodeMoment& moment) {
+      places.push_back(moment.T_world_robot);
+      counted.push_back(moment.T_odom_robot);
+    });
+    ASSERT_GE(row.drop_actions, 0);
+    int leaps = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const bool is_leap = norm(places[i].position() - places[i - 1].position()) > 0.5;
+      leaps += is_leap;
+      EXPECT_LT(norm(counted[i].position() - counted[i - 1].position()), 0.5);
+      if (is_leap) {
+        EXPECT_EQ(places[i].x, row.T_world_drop.x);
+        EXPECT_EQ(places[i].y, row.T_world_drop.y);
+        EXPECT_GE(norm(places[i].position() - places[i - 1].position()), 1.5);
+      }
+    }
+    EXPECT_EQ(leaps, 1);
+    EXPECT_TRUE(row.is_success);
+    EXPECT_GE(row.success_actions, row.drop_actions);
+    EXPECT_EQ(row.recovered_actions, 0);  // it is told
+    EXPECT_GT(row.spl(), 0.6);
+    EXPECT_EQ(row.confidence.looks(), 0);  // nor is its confidence its own
+  }
+}
+
+TEST(JudgedEpisode, WhoNeverKnewWhereItWasIsKidnappedInTheEnd) {
+  Setting setting;
+  setting.task = "CLK";
+  setting.method = "rnd";
+  setting.judge.kidnap.latest_actions = 7;
+  setting.max_actions = 30;
+  const EpisodeRow row = run(flat(), {{1.55, 1.55, 0.0}, {6.55, 1.55}, 5.0}, setting);
+  EXPECT_EQ(row.drop_actions, 7);
+  EXPECT_EQ(row.recovered_actions, -1);
+  EXPECT_EQ(row.actions, 30);
+  EXPECT_EQ(row.confidence.looks(), 31);
+}
+
+TEST(SampleDrop, IsTheSamePlaceWhereverTheRobotIsUnlessItIsThere) {
+  const JudgeParams judge;
+  const Scene scene = flat(judge);
+  const Point2 goal{6.55, 1.55};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto first = sample_drop(scene.routes, judge, {1.55, 4.55, 0.0}, goal, seed);
+    ASSERT_TRUE(first);
+    const auto elsewhere = sample_drop(scene.routes, judge, first->T_world_start, goal, seed);
+    ASSERT_TRUE(elsewhere);
+    EXPECT_GE(norm(elsewhere->T_world_start.position() - first->T_world_start.position()), 1.5);
+    // From a place that both of them are far from, it is the first again.
+    const Pose2 far{1.55, 4.45, 1.0};
+    const auto again = sample_drop(scene.routes, judge, far, goal, seed);
+    ASSERT_TRUE(again);
+    if (norm(first->T_world_start.position() - far.position()) > 3.0) {
+      EXPECT_EQ(again->T_world_start.x, first->T_world_start.x);
+      EXPECT_EQ(again->T_world_start.yaw, first->T_world_start.yaw);
+    }
+  }
+}
+
 TEST(SampleRoute, ItsGoalIsFreeOnTheDrawing) {
   const JudgeParams judge;
   const Scene scene = flat(judge);

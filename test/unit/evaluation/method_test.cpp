@@ -39,7 +39,8 @@ double free_share(const CoarseMap& map) {
 }
 
 TEST(Task, AnUnknownOneIsRefusedWithAListOfAll) {
-  EXPECT_EQ(refusal_of_task("XX"), "task \"XX\" is none of CG, CL, CF, HL, WL, TL");
+  EXPECT_EQ(refusal_of_task("XX"),
+            "task \"XX\" is none of CG, CL, CF, HL, WL, TL, CLK, CFK, HLK, WLK");
   for (const char* name : {"CG", "CL", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).name, name);
   }
@@ -49,6 +50,17 @@ TEST(Task, OnlyThePapersOwnKnowsTheHeading) {
   for (const char* name : {"CG", "CL", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).knows_heading, find_task(name).has_paper_setting);
     EXPECT_EQ(find_task(name).knows_heading, std::string{name} == "CG");
+  }
+}
+
+TEST(Task, OfEveryRobotThatKeepsTheSameRulesThereIsOneThatIsKidnapped) {
+  for (const std::string name : {"CL", "CF", "HL", "WL"}) {
+    const Task& task = find_task(name);
+    const Task& kidnapped = find_task(name + "K");
+    EXPECT_FALSE(task.kidnaps);
+    EXPECT_TRUE(kidnapped.kidnaps);
+    EXPECT_EQ(task.drawing, kidnapped.drawing);
+    EXPECT_EQ(task.observation, kidnapped.observation);
   }
 }
 

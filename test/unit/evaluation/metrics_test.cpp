@@ -131,8 +131,56 @@ TEST(PairedSuccess, CountsTheEpisodesInWhichMethodsDiffer) {
   EXPECT_EQ(pairs.episodes, 10);
   EXPECT_EQ(pairs.only_first, 7);
   EXPECT_EQ(pairs.only_second, 1);
+  EXPECT_EQ(pairs.both, 1);
+  EXPECT_DOUBLE_EQ(pairs.difference.value, 0.6);
+  EXPECT_NEAR(pairs.spl_difference.value, 0.48, 1e-12);
   EXPECT_NEAR(pairs.p_value, 2.0 * 9.0 / 256.0, 1e-12);  // at most one head in eight tosses
   EXPECT_EQ(paired_success(ours, ours).p_value, 1.0);
+}
+
+TEST(PairedDifference, HasTheIntervalThatNewcombePrints) {
+  // Newcombe (1998), Statistics in Medicine 17, 2635-2650, table II: 36, 12, 2, 0 and 20, 12,
+  // 2, 16.
+  const Figure high = paired_difference(36, 12, 2, 0);
+  EXPECT_DOUBLE_EQ(high.value, 0.2);
+  EXPECT_NEAR(high.low, 0.0569, 1e-4);
+  EXPECT_NEAR(high.high, 0.3404, 1e-4);
+  const Figure middle = paired_difference(20, 12, 2, 16);
+  EXPECT_NEAR(middle.low, 0.0562, 1e-4);
+  EXPECT_NEAR(middle.high, 0.3292, 1e-4);
+}
+
+TEST(PairedDifference, TurnsItsSignWithTheOrderAndHoldsItsValue) {
+  for (int both = 0; both <= 6; both += 2) {
+    for (int first = 0; first <= 6; first += 3) {
+      for (int second = 0; second <= 6; second += 3) {
+        const Figure one = paired_difference(both, first, second, 5);
+        const Figure other = paired_difference(both, second, first, 5);
+        EXPECT_NEAR(one.value, -other.value, 1e-12);
+        EXPECT_NEAR(one.low, -other.high, 1e-12);
+        EXPECT_LE(one.low, one.value);
+        EXPECT_GE(one.high, one.value);
+        EXPECT_GE(one.low, -1.0);
+        EXPECT_LE(one.high, 1.0);
+      }
+    }
+  }
+  EXPECT_TRUE(std::isnan(paired_difference(0, 0, 0, 0).value));
+}
+
+TEST(Metrics, OfKidnappedRobotsCountThoseThatNeverRecoveredAsLast) {
+  std::vector<EpisodeRow> rows(5, successful_episode(4.0, 9.0));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].drop_actions = 10;
+    rows[i].recovered_actions = i < 3 ? static_cast<int>(10 * i) : -1;
+  }
+  Metrics metrics = metrics_of(rows);
+  EXPECT_EQ(metrics.kidnapped, 5);
+  EXPECT_DOUBLE_EQ(metrics.recovered.value, 0.6);
+  EXPECT_DOUBLE_EQ(metrics.median_recovered_actions, 20.0);
+  rows[2].recovered_actions = -1;
+  EXPECT_TRUE(std::isnan(metrics_of(rows).median_recovered_actions));
+  EXPECT_EQ(metrics_of({failed_episode()}).kidnapped, 0);
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Who says how an episode went: knows the truth, and fills in the row.
+#pragma once
+
+#include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/localization.hpp"
+#include "coarse_map_nav/evaluation/episode_row.hpp"
+#include "coarse_map_nav/evaluation/route_sampler.hpp"
+#include "coarse_map_nav/simulation/simulator.hpp"
+#include "coarse_map_nav/simulation/step_drive.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace cmn {
+
+/// When a robot is carried elsewhere, and when it counts as having found out.
+struct KidnapParams {
+  int right_looks = 5;       ///< converged to the right place for so many looks in a row ...
+  int latest_actions = 100;  ///< ... or, when that never comes, after so many actions ...
+  double near_goal_m = 2.0;  ///< ... or this near to the goal: there is still a way to go
+  double least_away_m = 3.0;
+  int hold_looks = 5;  ///< right again: for so many looks in a row, or until the end
+};
+
+struct JudgeParams {
+  double success_radius_m = 0.4;   ///< CMN's released parameters
+  double declared_radius_m = 1.0;  ///< of a REACHED that counts as right
+  /// From here on a belief counts as converged, whatever the method itself makes of it: some act on
+  /// their estimate from the first step on.
+  double converged_confidence = 0.5;
+  double least_way_m = 3.0;
+  double most_way_m = 20.0;
+  KidnapParams kidnap;
+  SimulationParams simulation;
+};
+
+/// Where a kidnapped robot is put down: uniform over the places from where the way to the goal is
+/// `least_way_m` to `most_way_m` long and that are `least_away_m` from where it stands; anywhere
+/// 1.5 m away in a world too small for that. Draws depend on the seed and the goal alone, so that
+/// nearly always all methods are put down at the same place. None: the world is smaller still.
+std::optional<Route> sample_drop(const RouteSampler& routes, const JudgeParams& params,
+                                 const Pose2& T_world_robot, Point2 goal_world, std::uint64_t seed);
+
+/// Fills in what is seen at the start and after each action.
+class Judge {
+ public:
+  /// `kidnaps`: everything that is to be achieved counts from the drop on.
+  Judge(const JudgeParams& params, const Route& route, const EpisodeKey& key, bool kidnaps);
+
+  /// Where the robot has come to.
+  void look_at(const StepDrive& robot);
+  /// What is believed, and where that is in truth, both on `map`. `is_stated`: it is the method's
+  /// own belief, and not the truth that it was told.
+  void look_at(const Localization& at, const CoarseMap& map, const Pose2& T_map_true,
+               bool is_stated);
+  /// The robot says that it has arrived; the first word counts.
+  void hear_reached(const StepDrive& robot);
+  void count_action() { ++row_.actions; }
+
+  /// The robot is to be kidnapped before the next look; at any end that it declares before.
+  bool is_time_to_kidnap(const StepDrive& robot) const;
+  bool is_before_drop() const { return kidnaps_ && row_.drop_actions < 0; }
+  void drop(StepDrive& robot, const Route& from_there);
+  /// There is nowhere to carry it to.
+  void give_up_kidnapping() { kidnaps_ = false; }
+  /// Nothing more is to come.
+  void end();
+
+  EpisodeRow& row() { return row_; }
+
+ private:
+  double off_goal_m(const StepDrive& robot) const;
+
+  JudgeParams params_;
+  bool kidnaps_;
+  EpisodeRow row_;
+  int right_looks_ = 0;  ///< in a row, converged
+  int right_since_ = 0;  ///< [actions] the first of them
+};
+
+}  // namespace cmn
