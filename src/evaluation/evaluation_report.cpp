@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/evaluation_report.hpp"
 
+#include "coarse_map_nav/evaluation/ablation.hpp"
 #include "coarse_map_nav/evaluation/episode_group.hpp"
 #include "coarse_map_nav/evaluation/evaluation_plots.hpp"
 #include "coarse_map_nav/evaluation/metrics.hpp"
+#include "coarse_map_nav/evaluation/reliability.hpp"
 #include "coarse_map_nav/evaluation/report_tables.hpp"
 
 #include <array>
@@ -60,13 +62,15 @@ struct Plot {
   std::string (*draw)(const std::vector<EpisodeTable>&, int horizon);
 };
 
-const std::array<Plot, 4> kPlots{{
+const std::array<Plot, 5> kPlots{{
     {"success", "share of episodes at the goal, by actions", success_plot},
     {"bars", "SR and SPL with 95 % intervals",
      [](const std::vector<EpisodeTable>& tables, int) { return bar_plot(tables); }},
     {"buildings", "SPL by building, with 95 % intervals",
      [](const std::vector<EpisodeTable>& tables, int) { return building_plot(tables); }},
     {"convergence", "first convergence of the belief, by actions", convergence_plot},
+    {"reliability", "stated confidence against being right",
+     [](const std::vector<EpisodeTable>& tables, int) { return reliability_plot(tables); }},
 }};
 
 /// The tables of each task, in their order.
@@ -90,6 +94,13 @@ constexpr const char* kColumns =
 - **converged**: at some time half the belief lay within 1 m of its estimate; **falsely**: share of those whose estimate
   was then off by more than 1 m or a quarter turn. Actions and metres until then: medians of those that converged.
 - **ms / action**: mean wall time of seeing, believing and planning on this machine, whatever else it was doing.
+- **kidnapped**: once the robot was carried elsewhere, and its odometry did not notice; SR, SPL and declarations count
+  from then on. **recovered**: the belief had converged to the right place again and stayed, for 5 looks or to the end;
+  actions until then: the median of all, those that did not recover counted as later than any.
+- **against the whole**: difference to the method with all its parts, on the same episodes, with 95 % intervals
+  (Newcombe's for paired shares, bootstrap for SPL).
+- **calibration error**: mean over all looks of how far the share that was right lies from the confidence that was
+  stated, bin by bin; intervals are bootstraps over episodes.
 - A dash: there is no such number.
 )";
 
@@ -103,45 +114,93 @@ std::string task_section(const std::vector<EpisodeTable>& tables) {
         paper;
   }
   for (const EpisodeTable& table : tables) {
+    const EpisodeTable whole = {table.task, table.mpp, without_variants(table.rows)};
     text += text_of("### %s, %.2f m/cell\n\n", table.task.c_str(), table.mpp) +
-            success_table(table) + cost_table(table) + building_table(table) + paired_table(table);
+            success_table(whole) + kidnap_table(whole) + cost_table(whole) + building_table(whole) +
+            paired_table(whole);
+    const std::string ablation = ablation_table(table);
+    text +=
+        ablation.empty() ? "" : "One part off at a time, in points of a hundred:\n\n" + ablation;
+    const std::string reliability = reliability_table(whole);
+    text += reliability.empty()
+                ? ""
+                : "The confidence that was stated, and how often the estimate was right then:\n\n" +
+                      reliability;
   }
   return text;
+}
+
+/// Episodes that were asked for and could not be.
+std::string without_route(const Rows& rows) {
+  std::map<std::string, std::string> indices;  // by world, task and resolution
+  for (const EpisodeRow& row : merge_episodes({rows})) {
+    if (row.end == kNoRoute) {
+      std::string& list =
+          indices[row.key.world + ", " + row.key.task + text_of(", %.2f m/cell", row.key.mpp)];
+      const std::string index = std::to_string(row.key.index);
+      const bool is_new =
+          list != index && (list.size() <= index.size() ||
+                            list.substr(list.size() - index.size() - 1) != " " + index);
+      list += !is_new ? "" : (list.empty() ? "" : ", ") + index;
+    }
+  }
+  std::string text;
+  for (const auto& [where, list] : indices) {
+    text += "- " + where + ": " + list + "\n";
+  }
+  return text.empty()
+             ? ""
+             : "**Left out of everything below:** episodes for which no start and goal were "
+               "found, by their numbers.\n\n" +
+                   text + "\n";
 }
 
 }  // namespace
 
 std::vector<std::string> result_lines(const std::vector<EpisodeRow>& rows) {
   std::vector<std::string> lines;
-  for (const EpisodeTable& table : episode_tables(rows)) {
+  for (const EpisodeTable& table : episode_tables(played(rows))) {
     for (const std::string& method : methods_of(table.rows)) {
       const Metrics m = metrics_of(of_method(table.rows, method));
       lines.push_back(
           "RESULT task=" + table.task + text_of(" mpp=%.2f", table.mpp) + " method=" + method +
-          text_of(" SR=%.3f SPL=%.3f episodes=%d", m.success.value, m.spl.value, m.episodes));
+          text_of(" SR=%.3f SPL=%.3f episodes=%d", m.success.value, m.spl.value, m.episodes) +
+          (m.kidnapped > 0 ? text_of(" recovered=%.3f", m.recovered.value) + " median_actions=" +
+                                 number_text("%.0f", m.median_recovered_actions)
+                           : ""));
     }
   }
   return lines;
 }
 
-std::map<std::string, std::string> report_files(const std::vector<EpisodeRow>& rows,
+std::map<std::string, std::string> report_files(const std::vector<EpisodeRow>& all_rows,
                                                 const ReportContext& context) {
+  const Rows rows = played(all_rows);
   std::map<std::string, std::string> files;
   std::string text = "# Evaluation\n\n";
   if (context.is_interrupted) {
     text += "**Interrupted: these are not all episodes that were asked for.**\n\n";
   }
-  text += context_table(rows, context) + "\n" + kColumns + "\n";
+  text += context_table(rows, context) + "\n" + without_route(all_rows) + kColumns + "\n";
   for (const std::vector<EpisodeTable>& tables : tables_by_task(rows)) {
     text += task_section(tables);
-    for (const Plot& plot : kPlots) {
-      const std::string name = plot.name + "_" + tables.front().task + ".svg";
-      const std::string picture = plot.draw(tables, context.horizon);
+    const std::string& task = tables.front().task;
+    const auto add = [&](const std::string& name, const std::string& caption,
+                         const std::string& picture) {
       if (!picture.empty()) {
-        files[name] = picture;
-        text += "![" + tables.front().task + ": " + plot.caption + "](" + name + ")\n\n";
+        const std::string file = name + "_" + task + ".svg";
+        files[file] = picture;
+        text += "![" + task + ": " + caption + "](" + file + ")\n\n";
       }
+    };
+    std::vector<EpisodeTable> whole = tables;
+    for (EpisodeTable& table : whole) {
+      table.rows = without_variants(table.rows);
     }
+    for (const Plot& plot : kPlots) {
+      add(plot.name, plot.caption, plot.draw(whole, context.horizon));
+    }
+    add("ablation", "one part off at a time, against the whole", ablation_plot(tables));
   }
   files["report.md"] = text;
   return files;

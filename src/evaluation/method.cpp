@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/method.hpp"
 
+#include <algorithm>
+#include <exception>
+#include <set>
 #include <stdexcept>
 
 namespace cmn {
@@ -35,6 +38,16 @@ const std::vector<Method>& methods() {
   return kMethods;
 }
 
+/// Whether two methods run with the same parameters.
+bool is_same_as(const Method& base, const Method& variant, const std::string& config_dir) {
+  const Task& task = find_task("CL");
+  const std::vector<ParamDoc> a = list_params(method_params(base, task, config_dir));
+  const std::vector<ParamDoc> b = list_params(method_params(variant, task, config_dir));
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const ParamDoc& x, const ParamDoc& y) { return x.default_value == y.default_value; });
+}
+
 }  // namespace
 
 std::vector<std::string> method_names() {
@@ -56,16 +69,75 @@ const Method& find_method(const std::string& name) {
   throw std::invalid_argument("method \"" + name + "\" is none of " + known);
 }
 
+std::vector<Method> methods_named(const std::vector<std::string>& names, const Variants& variants,
+                                  const std::string& config_dir) {
+  std::vector<Method> named;
+  std::set<std::string> known;
+  std::string problems;
+  const auto complain = [&](const std::string& problem) {
+    problems += (problems.empty() ? "" : "\n  ") + problem;
+  };
+  const auto add = [&](Method method) {
+    if (known.insert(method.name).second) {
+      named.push_back(std::move(method));
+    } else {
+      complain("method " + method.name + " is named twice");
+    }
+  };
+  for (const std::string& name : names) {
+    try {
+      const std::size_t plus = name.find('+');
+      const Method& base = find_method(name.substr(0, plus));
+      if (plus == std::string::npos) {
+        add(base);
+        continue;
+      }
+      const std::string wanted = name.substr(plus + 1);
+      if (wanted != "all" && variants.count(wanted) == 0) {
+        std::string list;
+        for (const auto& [variant, changes] : variants) {
+          list += (list.empty() ? "" : ", ") + variant;
+        }
+        throw std::invalid_argument("variant \"" + wanted + "\" of " + base.name +
+                                    " is none of all, " + list);
+      }
+      for (const auto& [variant, changes] : variants) {
+        if (wanted != "all" && wanted != variant) {
+          continue;
+        }
+        Method method = base;
+        method.name += "+" + variant;
+        method.changes = changes;
+        if (!is_same_as(base, method, config_dir)) {
+          add(std::move(method));
+        } else if (wanted != "all") {
+          complain(method.name + " changes nothing: " + base.name + " is like that");
+        }
+      }
+    } catch (const std::exception& e) {
+      complain(e.what());
+    }
+  }
+  if (!problems.empty()) {
+    throw std::runtime_error(problems);
+  }
+  return named;
+}
+
 NavigatorParams method_params(const Method& method, const Task& task,
                               const std::string& config_dir) {
   const std::string file = config_dir + "/" + method.preset;
   NavigatorParams params;
+  ParamTree tree = read_param_file(file);
+  for (const auto& [name, value] : method.changes) {
+    tree[name] = value;
+  }
   std::string faults;
-  for (const std::string& problem : load_params(read_param_file(file), params)) {
+  for (const std::string& problem : load_params(tree, params)) {
     faults += "\n  " + problem;
   }
   if (!faults.empty()) {
-    throw std::runtime_error(file + ":" + faults);
+    throw std::runtime_error((method.changes.empty() ? file : method.name) + ":" + faults);
   }
   if (method.plans_on_world) {
     params.planning.map_repair.drawn_wall_cost = 1000;  // walls of the world are no mistakes

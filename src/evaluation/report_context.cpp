@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/report_context.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -29,11 +30,20 @@ void visit_entries(Context& context, Visitor&& visit) {
   visit("is_interrupted", context.is_interrupted);
 }
 
+/// No setting of one name with two values.
+bool agree(const ReportContext& a, const ReportContext& b) {
+  return std::all_of(a.settings.begin(), a.settings.end(), [&](const auto& setting) {
+    return std::all_of(b.settings.begin(), b.settings.end(), [&](const auto& other) {
+      return other.first != setting.first || other.second == setting.second;
+    });
+  });
+}
+
 /// Whether the episodes of two runs belong into one table.
 bool are_alike(const ReportContext& a, const ReportContext& b) {
   return a.seed == b.seed && a.robot_radius_m == b.robot_radius_m &&
          a.success_radius_m == b.success_radius_m && a.horizon == b.horizon &&
-         a.version == b.version && a.settings == b.settings;
+         a.version == b.version && agree(a, b);
 }
 
 }  // namespace
@@ -79,21 +89,29 @@ ReportContext merge_contexts(const std::vector<ReportContext>& runs) {
   ReportContext merged = runs.front();
   merged.machine.clear();
   merged.wall_time_s = 0.0;
+  std::vector<std::pair<std::string, std::string>> parts;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const ReportContext& run = runs[i];
-    if (!are_alike(run, runs.front())) {
+    if (!are_alike(run, merged)) {
       throw std::runtime_error(
           "these runs cannot be merged, they differ in seed, radii, horizon, "
           "version or settings:\n  " +
           runs.front().command + "\n  " + run.command);
     }
     merged.is_interrupted = merged.is_interrupted || run.is_interrupted;
+    for (const auto& setting : run.settings) {
+      if (std::find(merged.settings.begin(), merged.settings.end(), setting) ==
+          merged.settings.end()) {
+        merged.settings.push_back(setting);
+      }
+    }
     std::array<char, 32> time{};
     std::snprintf(time.data(), time.size(), ", %.0f s", run.wall_time_s);
-    merged.settings.emplace_back(
+    parts.emplace_back(
         "part " + std::to_string(i + 1),
         "`" + run.command + "` on " + run.machine + (run.wall_time_s > 0.0 ? time.data() : ""));
   }
+  merged.settings.insert(merged.settings.end(), parts.begin(), parts.end());
   return merged;
 }
 

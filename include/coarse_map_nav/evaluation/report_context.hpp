@@ -30,7 +30,8 @@ ReportContext read_context(const std::string& path);
 
 /// Of several runs to be merged: what they have in common, each run's command, machine and time
 /// among the settings. Throws std::runtime_error when they differ in seed, radii, horizon, version
-/// or settings: their episodes do not belong into one table. `runs` must not be empty.
+/// or the value of a setting: their episodes do not belong into one table. `runs` must not be
+/// empty.
 ReportContext merge_contexts(const std::vector<ReportContext>& runs);
 
 }  // namespace cmn

@@ -63,6 +63,22 @@ TEST(EvaluationReport, HasTheFiguresAndHowTheyWereMade) {
   EXPECT_THAT(report, Not(HasSubstr("Beside the paper")));
 }
 
+TEST(EvaluationReport, SaysHowManyKidnappedRobotsFoundOut) {
+  std::vector<EpisodeRow> rows = two_methods();
+  EXPECT_THAT(report_of(rows), Not(HasSubstr("| kidnapped |")));
+  for (EpisodeRow& row : rows) {
+    row.drop_actions = 4;
+    row.drop_driven_m = 0.0;
+    row.drop_shortest_m = row.shortest_m;
+    row.recovered_actions = row.is_success ? 12 : -1;
+  }
+  const std::string report = report_of(rows);
+  EXPECT_THAT(report, HasSubstr("| ours | 2 | 100.0 (34.2-100.0) | 12 | 100.0 | 0.0 |"));
+  EXPECT_THAT(report, HasSubstr("| CMN | 2 | 50.0 (9.5-90.5) | - | 50.0 | 0.0 |"));
+  EXPECT_THAT(result_lines(rows).front(),
+              HasSubstr(" episodes=2 recovered=1.000 median_actions=12"));
+}
+
 TEST(EvaluationReport, IsTheSameInWhateverOrderEpisodesEnded) {
   std::vector<EpisodeRow> rows = fake_evaluation(2, 3, {"CL", "CG"});
   const std::map<std::string, std::string> files = report_files(rows, context());
@@ -95,6 +111,23 @@ TEST(EvaluationReport, OfNoEpisodesIsStillAReport) {
   const auto files = report_files({}, context());
   EXPECT_EQ(files.size(), 1U);
   EXPECT_THAT(files.at("report.md"), HasSubstr("| episodes | 0, in 0 worlds |"));
+}
+
+TEST(EvaluationReport, NamesEpisodesWithoutARouteAndCountsThemNowhere) {
+  std::vector<EpisodeRow> rows = two_methods();
+  EXPECT_THAT(report_of(rows), Not(HasSubstr("Left out")));
+  for (const char* method : {"ours", "cmn"}) {
+    for (const int index : {3, 13}) {
+      rows.push_back(failed_episode(method, index));
+      rows.back().key.world = "house:9";
+      rows.back().end = "no route";
+    }
+  }
+  const std::string report = report_of(rows);
+  EXPECT_THAT(report, HasSubstr("**Left out of everything below:**"));
+  EXPECT_THAT(report, HasSubstr("- house:9, CL, 0.40 m/cell: 3, 13\n"));
+  EXPECT_THAT(report, HasSubstr("| episodes | 4, in 1 worlds |"));
+  EXPECT_EQ(result_lines(rows), result_lines(two_methods()));
 }
 
 TEST(EvaluationReport, EveryPictureOfItIsAmongItsFiles) {

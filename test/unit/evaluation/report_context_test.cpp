@@ -64,6 +64,18 @@ TEST(ReportContext, OfSeveralRunsNamesEach) {
                       "part 2", "`cmn_evaluate --shard 2/2 --out 'a: b'` on machine 2, 12 s"}));
 }
 
+TEST(ReportContext, OfRunsWithOtherMethodsHasTheSettingsOfAll) {
+  ReportContext second = shard(2);
+  second.settings.emplace_back("ours+no_x", "a: 1");
+  EXPECT_EQ(merge_contexts({shard(1), second}).settings.at(1).first, "ours+no_x");
+  ReportContext third = shard(3);
+  third.settings.emplace_back("ours+no_x", "a: 2");
+  EXPECT_THAT(error_of([&] {
+                merge_contexts({shard(1), second, third});
+              }),
+              HasSubstr("--shard 3/2"));
+}
+
 TEST(ReportContext, OfRunsThatDifferIsNotMerged) {
   ReportContext other = shard(2);
   other.seed = 2;

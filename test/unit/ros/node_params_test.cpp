@@ -27,7 +27,9 @@ std::vector<std::string> shipped_configs() {
   std::vector<std::string> files;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(CMN_SOURCE_DIR "/config")) {
-    if (entry.path().extension() == ".yaml") {
+    // Variants are what cmn_evaluate changes of presets.
+    if (entry.path().extension() == ".yaml" &&
+        entry.path().parent_path().filename() != "variants") {
       files.push_back(entry.path().string());
     }
   }
