@@ -80,6 +80,27 @@ done
 "$program" --world house:3-4 --task CG,WL --method true_pose --episodes 1 --out "$out/houses" >/dev/null
 [[ $(grep -cE '^(CG|WL),house:[34],' "$out/houses/episodes.csv") == 4 ]] || wrong "$(rows houses)"
 
+# Variants and a kidnapping, on two threads, and in parts by methods; what went worst.
+ablate() { "$program" --world "$worlds/home.yaml" --task CL,CLK --episodes 2 "$@"; }
+ablate --method true_pose,true_pose+no_map_repair --out "$out/ablated" --jobs 2 >"$out/ablated.txt"
+[[ $(grep -cE '^RESULT task=CLK .* method=true_pose.* recovered=1\.000 median_actions=0$' "$out/ablated.txt") == 2 ]] ||
+  wrong "$(cat "$out/ablated.txt")"
+ablate --method true_pose --out "$out/whole_method" >/dev/null
+ablate --method true_pose+no_map_repair --out "$out/variant" >/dev/null
+"$program" merge "$out/whole_method" "$out/variant" --out "$out/both" | diff - "$out/ablated.txt" >&2 ||
+  wrong "parts by methods have other results"
+diff <(rows ablated) <(rows both) >&2 || wrong "parts by methods have other rows"
+for part in "+no_map_repair | planning/map_repair/enabled: false" "One part off at a time" "| kidnapped |"; do
+  grep -qF "$part" "$out/ablated/report.md" || wrong "\"$part\" is not in report.md"
+done
+"$program" --world "$worlds/home.yaml" --task CLK --method true_pose+no_map_repair --gallery 1 --out "$out/ablated" \
+  >/dev/null
+gallery=$out/ablated/gallery
+[[ -s $gallery/true_pose+no_map_repair.png && $(grep -c '^| \[CLK' "$gallery/gallery.md") == 1 ]] ||
+  wrong "$(cat "$gallery/gallery.md")"
+grep -qE '^version: [0-9]+\.[0-9]+\.[0-9]+(, git [0-9a-z.-]+)?$' "$out/whole/run.yaml" ||
+  wrong "$(cat "$out/whole/run.yaml")"
+
 refused() {  # EXPECTED ARGUMENT...: exit code 1 and a sentence with EXPECTED in it
   local expected=$1 status=0 answer
   shift
@@ -93,13 +114,22 @@ refused "house:x is no house" --world house:x --out "$out/refused"
 refused "nowhere.yaml" --world "$out/nowhere.yaml" --out "$out/refused"
 refused "another world is called home" "${home[@]}" --world "$worlds/home.yaml"
 refused 'method "magic" is none of ours, rolling, cmn' "${home[@]}" --method magic
+refused 'variant "none" of ours is none of all, no_belief_policy' "${home[@]}" --method ours+none
+refused "ours+no_rolling_map changes nothing" "${home[@]}" --method ours,ours+no_rolling_map
+refused "absent.yaml" "${home[@]}" --variants "$out/absent.yaml"
+printf 'x: {planing: {policy: path}}\ny: {planning: {policy: none}}\n' >"$out/variants.yaml"
+refused "ours+y:" "${home[@]}" --method ours+x,ours+y --variants "$out/variants.yaml"
+refused "--gallery 0 is not 1 or more" "${home[@]}" --gallery 0
+refused "absent/episodes.csv: cannot be read" --world "$worlds/home.yaml" --out "$out/absent" --gallery 3
+refused "has no episode of rmn" --world "$worlds/home.yaml" --out "$out/whole" --method rmn --gallery 3
 refused 'task "XX" is none of CG' "${home[@]}" --task XX
 refused "--mpp fine is not" "${home[@]}" --mpp fine
 refused "--mpp 0 is not" "${home[@]}" --mpp 0
 refused "--mpp -0.4 is not" "${home[@]}" --mpp -0.4
 refused "--mpp nan is not" "${home[@]}" --mpp nan
 refused "--mpp 0.01 is finer than" "${home[@]}" --mpp 0.01,0.4
-refused "no start and goal lie 3 m to 20 m apart" "${home[@]}" --mpp 20
+refused "no start and goal lie 3 m to 20 m apart" --world "$worlds/home.yaml" --out "$out/routeless" --episodes 1 \
+  --mpp 20
 refused "--mpp names nothing" "${home[@]}" --mpp ""
 refused "--method names cmn twice" "${home[@]}" --method cmn,robb,cmn
 refused "--episodes 0 is not 1 or more" "${home[@]}" --episodes 0

@@ -89,12 +89,30 @@ void draw_scale_bar(Canvas& canvas, const MapView& view, double y) {
   canvas.text(text_of("%g m", length_m), {left - 8.0, y}, kLetter, kMapColours.ink, Align::kRight);
 }
 
-std::vector<cv::Point2d> way_on(const MapView& view, const std::vector<TraceStep>& steps) {
-  std::vector<cv::Point2d> way;
-  for (const TraceStep& step : steps) {
-    way.push_back(view.at(step.T_world_robot.position()));
+/// The way on the map; in two pieces when the robot was kidnapped.
+std::vector<std::vector<cv::Point2d>> ways_on(const MapView& view,
+                                              const std::vector<TraceStep>& steps) {
+  constexpr double kLeap_m = 0.5;  ///< no action takes the robot so far
+  std::vector<std::vector<cv::Point2d>> ways(1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Point2 p = steps[i].T_world_robot.position();
+    if (i > 0 && norm(p - steps[i - 1].T_world_robot.position()) > kLeap_m) {
+      ways.emplace_back();
+    }
+    ways.back().push_back(view.at(p));
   }
-  return way;
+  return ways;
+}
+
+void draw_way(Canvas& canvas, const MapView& view, const std::vector<TraceStep>& steps,
+              const cv::Scalar& colour, double width) {
+  const auto ways = ways_on(view, steps);
+  for (const auto& way : ways) {
+    canvas.polyline(way, kMapColours.white, 3.6);
+  }
+  for (const auto& way : ways) {
+    canvas.polyline(way, colour, width);
+  }
 }
 
 void draw_ends(Canvas& canvas, const MapView& view, const EpisodeTrace& trace) {
@@ -106,6 +124,11 @@ void draw_ends(Canvas& canvas, const MapView& view, const EpisodeTrace& trace) {
   canvas.polyline(ring, kMapColours.goal, 1.2);
   draw_goal(canvas, view.at(trace.row.goal_world), 8.0);
   draw_start(canvas, view.at(trace.row.T_world_start.position()), 6.5);
+  if (trace.row.drop_actions >= 0) {
+    const cv::Point2d drop = view.at(trace.row.T_world_drop.position());
+    draw_start(canvas, drop, 6.5);
+    canvas.text("put down here", {drop.x + 11.0, drop.y + 4.0}, kLetter, kMapColours.ink);
+  }
 }
 
 /// The world around some points, its frame and scale.
@@ -297,8 +320,7 @@ cv::Mat trace_picture(const EpisodeTrace& trace) {
   canvas.text(outcome_of(trace.row), {kMargin, 52.0}, kLetter, kMapColours.faint_ink);
   const MapView view = draw_world(canvas, world, height);
   draw_estimates(canvas, view, trace);
-  canvas.polyline(way_on(view, trace.steps), kMapColours.white, 3.6);
-  canvas.polyline(way_on(view, trace.steps), kWay, 1.8);
+  draw_way(canvas, view, trace.steps, kWay, 1.8);
   draw_collisions(canvas, view, trace.steps);
   draw_ends(canvas, view, trace);
   const Pose2 last = trace.steps.back().T_world_robot;
@@ -346,8 +368,7 @@ cv::Mat trace_comparison(const std::vector<EpisodeTrace>& traces) {
   draw_goal(canvas, {at.x + 96.0, at.y}, 7.0);
   canvas.text("goal, success radius", {at.x + 112.0, at.y + 4.0}, kLetter, kMapColours.ink);
   for (std::size_t i = traces.size(); i-- > 0;) {  // the first on top
-    canvas.polyline(way_on(view, traces[i].steps), kMapColours.white, 3.6);
-    canvas.polyline(way_on(view, traces[i].steps), colour_of_method(methods[i], methods), 2.2);
+    draw_way(canvas, view, traces[i].steps, colour_of_method(methods[i], methods), 2.2);
   }
   for (const EpisodeTrace& trace : traces) {
     at.y += kRow;

@@ -17,9 +17,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cmn_evaluate/evaluation.hpp"
+#include "cmn_evaluate/gallery.hpp"
 #include "cmn_evaluate/merge.hpp"
 #include "cmn_evaluate/replay.hpp"
 #include <boost/program_options.hpp>
@@ -109,6 +111,34 @@ double resolution_of(const std::string& text) {
   return mpp;
 }
 
+/// The variants that a run may name.
+cmn::Variants variants_for(const po::variables_map& given, const fs::path& config) {
+  if (given.count("variants") != 0) {
+    return cmn::read_variants(given["variants"].as<std::string>());
+  }
+  const fs::path shipped = config / "variants" / "ablation.yaml";
+  return fs::exists(shipped) ? cmn::read_variants(shipped.string()) : cmn::Variants{};
+}
+
+/// The methods of some ids of episodes.
+std::set<std::string> methods_in(const std::vector<std::string>& ids) {
+  std::set<std::string> methods;
+  for (const std::string& id : ids) {
+    methods.insert(cmn::parse_episode_id(id).method);
+  }
+  return methods;
+}
+
+/// "planning/policy: lattice, ...".
+std::string changes_text(const cmn::ParamTree& changes) {
+  std::ostringstream text;
+  for (const auto& [name, value] : changes) {
+    text << (text.tellp() == 0 ? "" : ", ") << name << ": ";
+    std::visit([&text](const auto& v) { text << std::boolalpha << v; }, value);
+  }
+  return text.str();
+}
+
 int run(int argc, char** argv) {
   po::options_description options{
       "cmn_evaluate --world W.yaml [--world ...] --task CL --mpp 0.4 --method ours,cmn --out "
@@ -121,7 +151,7 @@ int run(int argc, char** argv) {
   add_option(
       "task",
       po::value<std::vector<std::string>>()->multitoken()->composing()->default_value({"CL"}, "CL"),
-      "CG, CL, CF, HL, WL, TL; several with commas");
+      "CG, CL, CF, HL, WL, TL; CLK, CFK, HLK, WLK: likewise, kidnapped once; several with commas");
   add_option("mpp",
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
                  {"0.4"}, "0.4"),
@@ -129,7 +159,9 @@ int run(int argc, char** argv) {
   add_option("method",
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
                  {"ours"}, "ours"),
-             "several with commas");
+             "several with commas; ours+VARIANT: with one part changed; ours+all: with each");
+  add_option("variants", po::value<std::string>(),
+             "file of the VARIANTs; default: variants/ablation.yaml of --config");
   add_option("episodes", po::value<int>()->default_value(50), "in each world");
   add_option("seed", po::value<std::int64_t>()->default_value(1), "of starts, goals and noise");
   add_option("jobs", po::value<int>()->default_value(1), "threads; the result is the same for any");
@@ -139,6 +171,9 @@ int run(int argc, char** argv) {
   add_option("resume", po::bool_switch(), "go on with what lies in --out");
   add_option("replay", po::value<std::vector<std::string>>()->multitoken()->composing(),
              "run only these episodes again, as CL-0.40-intel-17-ours, and draw them");
+  add_option("gallery", po::value<int>(),
+             "run only so many of the worst episodes in --out again, of each --method, and draw "
+             "them with their causes");
   po::variables_map given;
   po::store(po::parse_command_line(argc, argv, options), given);
   if (given.count("help") != 0) {
@@ -154,7 +189,6 @@ int run(int argc, char** argv) {
     throw std::runtime_error("give at least one --world");
   }
   plan.tasks = list_of(given, "task");
-  plan.methods = list_of(given, "method");
   for (const std::string& mpp : list_of(given, "mpp")) {
     plan.mpps.push_back(resolution_of(mpp));
   }
@@ -173,9 +207,21 @@ int run(int argc, char** argv) {
   plan.config =
       given.count("config") != 0 ? fs::path{given["config"].as<std::string>()} : find_config();
   plan.resume = given["resume"].as<bool>();
-
+  std::vector<std::string> replayed;
   if (given.count("replay") != 0) {
-    cmn::replay(plan, split(given["replay"].as<std::vector<std::string>>()));
+    replayed = split(given["replay"].as<std::vector<std::string>>());
+  }
+  const std::set<std::string> methods_replayed = methods_in(replayed);
+  plan.methods = cmn::methods_named(
+      replayed.empty() ? list_of(given, "method")
+                       : std::vector<std::string>{methods_replayed.begin(), methods_replayed.end()},
+      variants_for(given, plan.config), plan.config.string());
+  if (!replayed.empty()) {
+    cmn::replay(plan, replayed);
+    return EXIT_SUCCESS;
+  }
+  if (given.count("gallery") != 0) {
+    cmn::leave_gallery(plan, static_cast<std::size_t>(positive(given, "gallery")));
     return EXIT_SUCCESS;
   }
   cmn::ReportContext context;
@@ -189,6 +235,11 @@ int run(int argc, char** argv) {
   cmn::EpisodeLog log{plan.out.string(), plan.resume};
   cmn::Evaluation evaluation{plan, log};
   context.horizon = evaluation.horizon();
+  for (const cmn::Method& method : plan.methods) {
+    if (!method.changes.empty()) {
+      context.settings.emplace_back(method.name, changes_text(method.changes));
+    }
+  }
   context.is_interrupted = true;  // until the end, which a run that is killed never sees
   cmn::write_context(context, (plan.out / "run.yaml").string());
   std::signal(SIGINT, interrupt);

@@ -21,6 +21,7 @@ struct TraceStep {
   double confidence = 0.0;  ///< share of the belief within 1 m of it
   double entropy = 0.0;     ///< of the belief [nats]
   int collisions = 0;       ///< so far
+  bool is_converged = false;
 
   /// Off by no more than 1 m and less than 45 degrees.
   bool is_right() const;

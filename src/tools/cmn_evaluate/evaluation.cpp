@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation.hpp"
 
+#include "coarse_map_nav/evaluation/episode_group.hpp"
 #include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/evaluation/progress.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
@@ -13,6 +14,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <unistd.h>
 
@@ -128,15 +130,30 @@ std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& j
   }
 }
 
+std::vector<std::uint64_t> seeds_of(std::uint64_t seed) {
+  return {seed, mixed(seed + 1), mixed(seed + 2)};
+}
+
+std::optional<Stage> stage(const Scene& scene, const Task& task, double mpp,
+                           const JudgeParams& judge, std::uint64_t seed) {
+  for (const std::uint64_t tried : seeds_of(seed)) {
+    Drawing drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, mpp,
+                           static_cast<std::uint32_t>(tried), judge.simulation.robot.radius_m);
+    if (const auto route = sample_route(scene, drawing, judge, tried)) {
+      return Stage{std::move(drawing), *route, tried};
+    }
+  }
+  return std::nullopt;
+}
+
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{log} {
   for (const std::string& name : plan.tasks) {
-    for (const std::string& method : plan.methods) {
-      params_[name][method] =
-          method_params(find_method(method), find_task(name), plan.config.string());
+    for (const Method& method : plan.methods) {
+      params_[name][method.name] = method_params(method, find_task(name), plan.config.string());
     }
   }
   std::set<std::string> names;
@@ -187,6 +204,14 @@ void Evaluation::run(const std::function<bool()>& is_stopped) {
   if (fault_) {
     std::rethrow_exception(fault_);
   }
+  if (!log_.rows().empty() && played(log_.rows()).empty()) {
+    const EpisodeKey& first = log_.rows().front().key;
+    std::ostringstream text;
+    text << first.world << ": no start and goal lie " << plan_.judge.least_way_m << " m to "
+         << plan_.judge.most_way_m << " m apart with the goal on free ground of the map at "
+         << first.mpp << " m/cell; nor does any other episode have them";
+    throw std::runtime_error(text.str());
+  }
 }
 
 EpisodeKey Evaluation::key_of(const Job& job, const std::string& method) const {
@@ -202,10 +227,11 @@ EpisodeKey Evaluation::key_of(const Job& job, const std::string& method) const {
 
 void Evaluation::add(const Job& job) {
   jobs_.push_back(job);
-  for (const std::string& method : plan_.methods) {
-    const EpisodeKey key = key_of(job, method);
+  for (const Method& method : plan_.methods) {
+    const EpisodeKey key = key_of(job, method.name);
     if (const EpisodeRow* row = log_.find(key.id())) {
-      if (row->key.seed != key.seed) {
+      const std::vector<std::uint64_t> seeds = seeds_of(key.seed);
+      if (std::find(seeds.begin(), seeds.end(), row->key.seed) == seeds.end()) {
         throw std::runtime_error(key.id() + " was run with another --seed: --resume needs the " +
                                  "options of the run that it goes on with");
       }
@@ -229,32 +255,34 @@ void Evaluation::work(const std::function<bool()>& is_stopped, ProgressLine& pro
 void Evaluation::play(const Job& job, ProgressLine& progress) {
   const Scene& scene = *scenes_[job.world];
   const Task& task = find_task(plan_.tasks[job.task]);
-  std::optional<Drawing> drawing;
-  std::optional<Route> route;
-  for (const std::string& name : plan_.methods) {
-    const EpisodeKey key = key_of(job, name);
-    if (done_.count(key.id()) != 0) {
+  std::optional<Stage> ready;
+  bool is_staged = false;
+  for (const Method& method : plan_.methods) {
+    EpisodeRow row;
+    row.key = key_of(job, method.name);
+    if (done_.count(row.key.id()) != 0) {
       continue;
     }
-    if (!drawing) {
-      drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
-                     static_cast<std::uint32_t>(key.seed), plan_.judge.simulation.robot.radius_m);
-      route = sample_route(scene, *drawing, plan_.judge, key.seed);
+    if (!is_staged) {
+      ready = stage(scene, task, row.key.mpp, plan_.judge, row.key.seed);
+      is_staged = true;
     }
-    if (!route) {
-      std::ostringstream text;
-      text << key.world << ": no start and goal lie " << plan_.judge.least_way_m << " m to "
-           << plan_.judge.most_way_m << " m apart with the goal on free ground of the map at "
-           << key.mpp << " m/cell";
-      throw std::runtime_error(text.str());
+    if (ready) {
+      row.key.seed = ready->seed;
+      row =
+          run_judged_episode(scene, task, ready->drawing, ready->route, method,
+                             params_.at(task.name).at(method.name), plan_.judge, row.key, seconds);
+    } else {
+      row.end = kNoRoute;
     }
-    const EpisodeRow row =
-        run_judged_episode(scene, task, *drawing, *route, find_method(name),
-                           params_.at(task.name).at(name), plan_.judge, key, seconds);
-    const std::lock_guard<std::mutex> lock{mutex_};
-    log_.add(row);
-    progress.count(row.is_success);
+    keep(row, progress);
   }
+}
+
+void Evaluation::keep(const EpisodeRow& row, ProgressLine& progress) {
+  const std::lock_guard<std::mutex> lock{mutex_};
+  log_.add(row);
+  progress.count(row.is_success);
 }
 
 }  // namespace cmn

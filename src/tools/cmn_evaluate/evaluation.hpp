@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct Plan {
   std::vector<std::string> worlds;
   std::vector<std::string> tasks;
   std::vector<double> mpps;
-  std::vector<std::string> methods;
+  std::vector<Method> methods;
   int episodes = 0;
   std::uint64_t seed = 1;
   int jobs = 1;
@@ -51,6 +52,18 @@ std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& j
 /// by their names, so that a run may be split by worlds, too.
 std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index);
 
+/// An episode made ready to be played.
+struct Stage {
+  Drawing drawing;
+  Route route;
+  std::uint64_t seed;  ///< that they came from
+};
+/// The seeds to be tried for an episode, one after the other: a drawing may have closed all ways.
+std::vector<std::uint64_t> seeds_of(std::uint64_t seed);
+/// By the first of seeds_of() that gives one; none: no start and goal are far enough apart.
+std::optional<Stage> stage(const Scene& scene, const Task& task, double mpp,
+                           const JudgeParams& judge, std::uint64_t seed);
+
 class ProgressLine;
 
 /// Plays all episodes of a plan on `plan.jobs` threads: the same rows for any number of them.
@@ -60,7 +73,8 @@ class Evaluation {
   /// std::runtime_error or std::invalid_argument naming what cannot be done.
   Evaluation(const Plan& plan, EpisodeLog& log);
 
-  /// Until all is done or `is_stopped`, which lets the episodes that are under way end.
+  /// Until all is done or `is_stopped`, which lets the episodes that are under way end. Throws
+  /// std::runtime_error when there is not one episode that could be played.
   void run(const std::function<bool()>& is_stopped);
 
   /// The number of actions after which every method's episode has ended.
@@ -79,12 +93,14 @@ class Evaluation {
   void add(const Job& job);
   void work(const std::function<bool()>& is_stopped, ProgressLine& progress);
   void play(const Job& job, ProgressLine& progress);
+  void keep(const EpisodeRow& row, ProgressLine& progress);
 
   const Plan& plan_;
   EpisodeLog& log_;
   std::set<std::string> done_;  ///< ids
   std::vector<std::unique_ptr<Scene>> scenes_;
   std::vector<Job> jobs_;
+  /// By task and method.
   std::map<std::string, std::map<std::string, NavigatorParams>> params_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay.hpp"
 
-#include "coarse_map_nav/evaluation/episode_trace.hpp"
+#include "coarse_map_nav/evaluation/episode_gallery.hpp"
 #include "coarse_map_nav/evaluation/gif.hpp"
 #include "coarse_map_nav/evaluation/run_picture.hpp"
-#include "coarse_map_nav/evaluation/run_record.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -22,19 +21,14 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kFilmFrames = 120;
 
-/// What a recorder keeps of an episode.
-struct Recording {
-  EpisodeTrace trace;
-  RunSetting setting;
-  RunRecord record;
-};
-
 EpisodeRecorder recorder_of(Recording& recording) {
   return [&recording](const EpisodeMoment& moment) {
     const Localization& at = moment.localization;
     const auto action = static_cast<double>(recording.trace.steps.size());
-    recording.trace.steps.push_back({moment.T_world_robot, moment.T_world_estimate, at.confidence,
-                                     entropy(at.belief), moment.collisions});
+    recording.trace.steps.push_back(
+        {moment.T_world_robot, moment.T_world_estimate, at.confidence, entropy(at.belief),
+         moment.collisions,
+         at.is_converged && at.confidence >= recording.trace.converged_confidence});
     recording.setting.map = moment.map;
     recording.setting.goal_map = moment.goal_map;
     const Grid<double> cells = marginal(at.belief);
@@ -52,57 +46,12 @@ EpisodeRecorder recorder_of(Recording& recording) {
   };
 }
 
-std::string world_of(const Plan& plan, const EpisodeKey& key) {
-  for (const std::string& world : plan.worlds) {
-    if (scene_name(world) == key.world) {
-      return world;
-    }
-  }
-  throw std::runtime_error(key.id() + " needs a --world that is called " + key.world);
-}
-
-/// A name that every file system takes.
-std::string file_name(std::string id) {
-  std::replace(id.begin(), id.end(), ':', '_');
-  return id;
-}
-
-void write_picture(const fs::path& path, const cv::Mat& picture) {
-  if (!cv::imwrite(path.string(), picture)) {
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
-  std::cout << path.string() << "\n";
-}
-
-Recording run_again(const Plan& plan, const Scene& scene, const EpisodeKey& key) {
-  const Task& task = find_task(key.task);
-  const Method& method = find_method(key.method);
-  const Drawing drawing =
-      draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, key.mpp,
-           static_cast<std::uint32_t>(key.seed), plan.judge.simulation.robot.radius_m);
-  const auto route = sample_route(scene, drawing, plan.judge, key.seed);
-  if (!route) {
-    throw std::runtime_error(key.id() + ": no start and goal are far enough apart");
-  }
-  Recording recording;
-  recording.trace.world = recording.setting.world.emplace(scene.map);
-  recording.trace.success_radius_m = plan.judge.success_radius_m;
-  recording.trace.converged_confidence = plan.judge.converged_confidence;
-  recording.setting.goal_world = route->goal_world;
-  recording.setting.time_unit = "actions";
-  recording.trace.row = run_judged_episode(scene, task, drawing, *route, method,
-                                           method_params(method, task, plan.config.string()),
-                                           plan.judge, key, seconds, recorder_of(recording));
-  return recording;
-}
-
 /// What an earlier run has to say about the same episode.
 void compare(const Plan& plan, const EpisodeRow& row) {
-  std::ifstream in{plan.out / "episodes.csv"};
-  if (!in) {
+  if (!fs::exists(plan.out / "episodes.csv")) {
     return;
   }
-  for (const EpisodeRow& earlier : read_episodes(in, (plan.out / "episodes.csv").string())) {
+  for (const EpisodeRow& earlier : rows_in(plan.out)) {
     if (earlier.key.id() == row.key.id()) {
       merge_episodes({{earlier}, {row}});
       std::cout << "the same as in episodes.csv\n";
@@ -112,9 +61,55 @@ void compare(const Plan& plan, const EpisodeRow& row) {
 
 }  // namespace
 
+std::string world_of(const Plan& plan, const EpisodeKey& key) {
+  for (const std::string& world : plan.worlds) {
+    if (scene_name(world) == key.world) {
+      return world;
+    }
+  }
+  throw std::runtime_error(key.id() + " needs a --world that is called " + key.world);
+}
+
+std::vector<EpisodeRow> rows_in(const fs::path& folder) {
+  const std::string path = (folder / "episodes.csv").string();
+  std::ifstream in{path};
+  if (!in) {
+    throw std::runtime_error(path + ": cannot be read");
+  }
+  return read_episodes(in, path);
+}
+
+void write_picture(const fs::path& path, const cv::Mat& picture) {
+  if (!cv::imwrite(path.string(), picture)) {
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+  std::cout << path.string() << "\n";
+}
+
+Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key) {
+  const Task& task = find_task(key.task);
+  const auto method = std::find_if(plan.methods.begin(), plan.methods.end(),
+                                   [&](const Method& m) { return m.name == key.method; });
+  const std::optional<Stage> ready = stage(scene, task, key.mpp, plan.judge, key.seed);
+  if (!ready) {
+    throw std::runtime_error(key.id() + ": no start and goal are far enough apart");
+  }
+  key.seed = ready->seed;
+  Recording recording;
+  recording.trace.world = recording.setting.world.emplace(scene.map);
+  recording.trace.success_radius_m = plan.judge.success_radius_m;
+  recording.trace.converged_confidence = plan.judge.converged_confidence;
+  recording.setting.goal_world = ready->route.goal_world;
+  recording.setting.time_unit = "actions";
+  recording.trace.row = run_judged_episode(scene, task, ready->drawing, ready->route, *method,
+                                           method_params(*method, task, plan.config.string()),
+                                           plan.judge, key, seconds, recorder_of(recording));
+  return recording;
+}
+
 void replay(const Plan& plan, const std::vector<std::string>& ids) {
   fs::create_directories(plan.out);
-  std::map<std::string, std::vector<EpisodeTrace>> traces;  // by what is left of the id
+  std::map<std::string, std::vector<EpisodeTrace>> traces;  // by the name of the file
   for (const std::string& id : ids) {
     EpisodeKey key = parse_episode_id(id);
     key.seed = episode_seed(plan.seed, key.world, key.index);
@@ -125,17 +120,18 @@ void replay(const Plan& plan, const std::vector<std::string>& ids) {
       std::cout << id << " ended before its first step: " << recording.trace.row.end << "\n";
       continue;
     }
-    write_picture(plan.out / (file_name(id) + ".png"), trace_picture(recording.trace));
-    const fs::path film = plan.out / (file_name(id) + ".gif");
+    write_picture(plan.out / (file_name_of(key) + ".png"), trace_picture(recording.trace));
+    const fs::path film = plan.out / (file_name_of(key) + ".gif");
     write_gif(film.string(), run_film(recording.setting, recording.record, id,
                                       recording.trace.row.end, kFilmFrames));
     std::cout << film.string() << "\n";
     compare(plan, recording.trace.row);
-    traces[id.substr(0, id.rfind('-'))].push_back(recording.trace);
+    const std::string file = file_name_of(key);
+    traces[file.substr(0, file.rfind('-'))].push_back(recording.trace);
   }
   for (const auto& [name, group] : traces) {
     if (group.size() > 1) {
-      write_picture(plan.out / (file_name(name) + ".png"), trace_comparison(group));
+      write_picture(plan.out / (name + ".png"), trace_comparison(group));
     }
   }
 }
