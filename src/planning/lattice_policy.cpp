@@ -38,8 +38,14 @@ ActionType LatticePolicy::choose(const Situation& situation, std::mt19937_64& rn
   const double cell_m = situation.map.resolution();
   double least_m = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const Point2 ahead = turned(lattice_.position_of(states[i]), situation.yaw_rad);
+  const double c = std::cos(situation.yaw_rad);
+  const double s = std::sin(situation.yaw_rad);
+  for (const std::size_t i : lattice_.places()) {
+    if (states[i].cost_m >= least_m) {
+      break;  // and so are all that follow
+    }
+    const Point2 p = lattice_.position_of(states[i]);
+    const Point2 ahead{c * p.x - s * p.y, s * p.x + c * p.y};
     const double to_go_m = cell_m * situation.cost_to_go.between_cells(situation.position_cells +
                                                                        (1.0 / cell_m) * ahead);
     if (states[i].cost_m + kGreed * to_go_m < least_m) {

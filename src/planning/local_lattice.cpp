@@ -6,9 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
-
 namespace cmn {
 namespace {
 
@@ -17,43 +14,24 @@ constexpr double kImpossible = std::numeric_limits<double>::infinity();
 constexpr double kGain_m = 0.01;
 constexpr double kUnit_m = 0.005;  ///< costs are queued in whole units
 
-std::size_t units(double cost_m) { return static_cast<std::size_t>(std::lround(cost_m / kUnit_m)); }
+std::uint32_t units(double cost_m) {
+  return static_cast<std::uint32_t>(std::lround(cost_m / kUnit_m));
+}
 
 }  // namespace
 
-void ClearanceMap::measure(const LocalOccupancy& local) {
-  size_ = local.size;
-  resolution_ = local.resolution;
-  cv::Mat free(size_, size_, CV_8U);
-  is_seen_.resize(local.cell_count());
-  for (std::size_t i = 0; i < local.cell_count(); ++i) {
-    is_seen_[i] = local.confidence[i] > 0.0F;
-    free.data[i] = is_seen_[i] != 0 && local.occupancy[i] > 0.5F ? 0 : 255;
-  }
-  clearance_m_.resize(local.cell_count());
-  cv::Mat clearance(size_, size_, CV_32F, clearance_m_.data());
-  cv::distanceTransform(free, clearance, cv::DIST_L2, 5, CV_32F);
-  // From the middle of a cell to the border, not the middle, of the occupied one.
-  for (float& distance : clearance_m_) {
-    distance = std::max(0.0F, distance - 0.5F) * static_cast<float>(resolution_);
-  }
-}
-
-double ClearanceMap::at(Point2 p_robot) const {
-  const int ix = static_cast<int>(std::floor(p_robot.x / resolution_ + 0.5 * size_));
-  const int iy = static_cast<int>(std::floor(p_robot.y / resolution_ + 0.5 * size_));
-  return ix < 0 || iy < 0 || ix >= size_ || iy >= size_
-             ? kUnseen
-             : at_cell(static_cast<std::size_t>(iy) * static_cast<std::size_t>(size_) +
-                       static_cast<std::size_t>(ix));
+double LocalLattice::clearance_at(Cell half_steps) const {
+  const int ix = column_of_half_step_[static_cast<std::size_t>(half_steps.x + 2 * reach_)];
+  const int iy = column_of_half_step_[static_cast<std::size_t>(half_steps.y + 2 * reach_)];
+  return ix < 0 || iy < 0 || ix >= clearance_.size() || iy >= clearance_.size()
+             ? ClearanceMap::kUnseen
+             : clearance_.at_cell(ix, iy);
 }
 
 double LocalLattice::step_cost_m(Cell from, Cell to) const {
-  const Point2 start{from.x * step_m_, from.y * step_m_};
-  const Point2 end{to.x * step_m_, to.y * step_m_};
-  const double start_m = clearance_.at(start);
-  const double middle_m = clearance_.at(0.5 * (start + end));
-  const double end_m = clearance_.at(end);
+  const double start_m = clearance_at(2 * from);
+  const double middle_m = clearance_at(from + to);
+  const double end_m = clearance_at(2 * to);
   const double least_m = std::min(middle_m, end_m);
   const bool leaves_narrowness =
       start_m < params_.clearance_m && middle_m >= start_m && end_m > start_m + kGain_m;
@@ -65,48 +43,68 @@ double LocalLattice::step_cost_m(Cell from, Cell to) const {
   return step_m_ * (1.0 + params_.discomfort * nearness);
 }
 
+void LocalLattice::look_at(const LocalOccupancy& local) {
+  // Farther than that, a distance is compared with nothing.
+  clearance_.measure(local, std::max(params_.comfort_m, params_.clearance_m + kGain_m));
+  const double reach_m = std::min(params_.reach_m, 0.5 * local.side_m());
+  reach_ = static_cast<int>(std::floor(reach_m / step_m_));
+  column_of_half_step_.clear();
+  for (int i = -2 * reach_; i <= 2 * reach_; ++i) {
+    const int before = (i - (i % 2 != 0)) / 2;
+    const int after = (i + (i % 2 != 0)) / 2;
+    column_of_half_step_.push_back(
+        clearance_.column_of(0.5 * (before * step_m_ + after * step_m_)));
+  }
+}
+
 const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& local,
                                                       bool may_go_forward) {
-  clearance_.measure(local);
-  const double reach_m = std::min(params_.reach_m, 0.5 * local.side_m());
-  const int reach = static_cast<int>(std::floor(reach_m / step_m_));
-  const int side = 2 * reach + 1;
-  const auto slot_of = [&](Cell offset, int quarter_turns) {
-    return static_cast<std::size_t>(((offset.y + reach) * side + offset.x + reach) * 4 +
-                                    quarter_turns);
+  look_at(local);
+  const int side = 2 * reach_ + 1;
+  const auto place_of = [&](Cell offset) {
+    return static_cast<std::size_t>((offset.y + reach_) * side + offset.x + reach_);
   };
-  constexpr auto kFar = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> cost(static_cast<std::size_t>(side * side * 4), kFar);
+  constexpr auto kFar = std::numeric_limits<std::uint32_t>::max();
+  const auto places = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  cost_.assign(4 * places, kFar);
+  is_found_.assign(places, 0);
 
   // Dial's queue: the longest edge bounds how many buckets are in use at a time.
-  const std::size_t turn = units(params_.turn_cost_m);
-  const std::size_t longest = std::max(turn, units(step_m_ * (1.0 + params_.discomfort))) + 1;
-  std::vector<std::vector<LatticeState>> buckets(longest + 1);
+  const std::uint32_t turn = units(params_.turn_cost_m);
+  const std::uint32_t longest = std::max(turn, units(step_m_ * (1.0 + params_.discomfort))) + 1;
+  buckets_.resize(longest + 1);
   std::size_t waiting = 0;
-  const auto offer = [&](const LatticeState& state, std::size_t total) {
-    std::size_t& known = cost[slot_of(state.offset, state.quarter_turns)];
+  const auto offer = [&](const LatticeState& state, std::uint32_t total) {
+    std::uint32_t& known =
+        cost_[4 * place_of(state.offset) + static_cast<std::size_t>(state.quarter_turns)];
     if (total < known) {  // the first of equals stays
       known = total;
-      buckets[total % buckets.size()].push_back(state);
+      buckets_[total % buckets_.size()].push_back(state);
       ++waiting;
     }
   };
   states_.clear();
+  places_.clear();
   offer(LatticeState{}, 0);
-  for (std::size_t total = 0; waiting > 0; ++total) {
-    std::vector<LatticeState>& bucket = buckets[total % buckets.size()];
+  for (std::uint32_t total = 0; waiting > 0; ++total) {
+    std::vector<LatticeState>& bucket = buckets_[total % buckets_.size()];
     // Turns may be free: the bucket grows while it is worked off.
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       LatticeState here = bucket[i];
       --waiting;
-      if (cost[slot_of(here.offset, here.quarter_turns)] != total) {
+      const std::size_t place = place_of(here.offset);
+      if (cost_[4 * place + static_cast<std::size_t>(here.quarter_turns)] != total) {
         continue;  // a cheaper way was found since
       }
       here.cost_m = static_cast<double>(total) * kUnit_m;
       const auto parent = static_cast<std::int32_t>(states_.size());
+      if (is_found_[place] == 0) {
+        is_found_[place] = 1;
+        places_.push_back(states_.size());
+      }
       states_.push_back(here);
       const Cell ahead = here.offset + turned(Cell{1, 0}, here.quarter_turns);
-      if (std::abs(ahead.x) <= reach && std::abs(ahead.y) <= reach &&
+      if (std::abs(ahead.x) <= reach_ && std::abs(ahead.y) <= reach_ &&
           (may_go_forward || parent != 0)) {
         const double step = step_cost_m(here.offset, ahead);
         if (step < kImpossible) {

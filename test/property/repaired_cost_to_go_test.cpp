@@ -27,7 +27,7 @@ RepairedMap random_repaired_map(std::mt19937_64& rng) {
       o = o > 0.99F ? 1.0F : 0.0F;
     }
     ClearanceMap clearance;
-    clearance.measure(seen);
+    clearance.measure(seen, 0.19);
     map.fuse(seen, clearance, 0.19, {width * draw_uniform(rng), height * draw_uniform(rng)},
              6.0 * draw_uniform(rng));
     map.mark_failed({static_cast<int>(draw_index(rng, map.width())),

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/planning/clearance_map.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,24 +46,6 @@ struct LatticeState {
   ActionType action = ActionType::kStop;  ///< that leads here from the parent
 };
 
-/// How far each cell of a local occupancy grid is from what is seen to be occupied.
-class ClearanceMap {
- public:
-  void measure(const LocalOccupancy& local);
-  /// [m], from the robot's frame; kUnseen where nothing was seen.
-  double at(Point2 p_robot) const;
-  double at_cell(std::size_t i) const {
-    return is_seen_[i] ? static_cast<double>(clearance_m_[i]) : kUnseen;
-  }
-  static constexpr double kUnseen = -1.0;
-
- private:
-  int size_ = 0;
-  double resolution_ = 1.0;
-  std::vector<float> clearance_m_;
-  std::vector<char> is_seen_;
-};
-
 /// Dijkstra over (step forward, turn left, turn right) through a local occupancy grid that is
 /// aligned with the robot. A step is possible when its middle and its end lie on cells that were
 /// seen to be free, at least `clearance_m` from everything seen to be occupied; a robot that stands
@@ -78,6 +61,8 @@ class LocalLattice {
   /// The result is good until the next call.
   const std::vector<LatticeState>& search(const LocalOccupancy& local, bool may_go_forward = true);
   const std::vector<LatticeState>& states() const { return states_; }
+  /// Of each place among them the first state, the cheapest, in the same order.
+  const std::vector<std::size_t>& places() const { return places_; }
   /// Of the last search.
   const ClearanceMap& clearance() const { return clearance_; }
   /// The first action on the way to a state of the last search, kStop for the first state.
@@ -90,13 +75,22 @@ class LocalLattice {
   }
 
  private:
+  void look_at(const LocalOccupancy& local);
+  double clearance_at(Cell half_steps) const;
   /// The price of the step between two neighbours of the lattice [m], infinite when impossible.
   double step_cost_m(Cell from, Cell to) const;
 
   LatticeParams params_;
   double step_m_;
   ClearanceMap clearance_;
+  int reach_ = 0;                         ///< [steps]
+  std::vector<int> column_of_half_step_;  ///< of the local map, from -2 reach_ on
   std::vector<LatticeState> states_;
+  std::vector<std::size_t> places_;
+  // Kept from search to search for their memory.
+  std::vector<std::uint32_t> cost_;
+  std::vector<std::uint8_t> is_found_;
+  std::vector<std::vector<LatticeState>> buckets_;
 };
 
 }  // namespace cmn
