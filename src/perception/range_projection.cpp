@@ -38,13 +38,15 @@ void RangeProjector::tabulate(const RangeScan& scan) {
   const double cell_m = params_.side_m / params_.size;
   const Pose2 T_sensor_robot = inverse(scan.T_robot_sensor);
   bearings_.clear();
+  const auto no_beam = static_cast<std::uint32_t>(layout_beams_);
   for (int iy = 0; iy < params_.size; ++iy) {
     for (int ix = 0; ix < params_.size; ++ix) {
       const Point2 p_robot{(ix + 0.5 - 0.5 * params_.size) * cell_m,
                            (iy + 0.5 - 0.5 * params_.size) * cell_m};
       const Point2 p = T_sensor_robot * p_robot;
+      const std::int32_t beam = nearest_beam(scan, layout_beams_, std::atan2(p.y, p.x));
       bearings_.push_back(
-          {nearest_beam(scan, layout_beams_, std::atan2(p.y, p.x)), static_cast<float>(norm(p))});
+          {beam < 0 ? no_beam : static_cast<std::uint32_t>(beam), static_cast<float>(norm(p))});
     }
   }
 }
@@ -60,10 +62,12 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
     tabulate(scan);
   }
 
-  // Per beam: free below `hit_m`, occupied up to `behind_m`, unseen beyond; NaN compares false.
+  // Per beam: free below `hit_m`, seen to be occupied up to `behind_m`, not seen beyond; NaN
+  // compares false.
   struct Beam {
     float hit_m;
     float behind_m;
+    float occupancy;  ///< from hit_m on
   };
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -71,20 +75,21 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
   const double diagonal_m = std::sqrt(2.0) * params_.side_m / params_.size;
   const auto wall_m = static_cast<float>(std::max(params_.wall_m, diagonal_m));
   std::vector<Beam> beams;
-  beams.reserve(scan.ranges_m.size());
+  beams.reserve(scan.ranges_m.size() + 1);
   BeamCount seen;
   for (const float range_m : scan.ranges_m) {
     if (!is_usable(range_m, scan)) {
-      beams.push_back({kNan, kNan});
+      beams.push_back({kNan, kNan, 0.5F});
       ++seen.unusable;
     } else if (range_m > range_max_m) {
-      beams.push_back({range_max_m, -kInfinity});
+      beams.push_back({range_max_m, -kInfinity, 0.5F});
       ++seen.used;
     } else {
-      beams.push_back({range_m, range_m + wall_m});
+      beams.push_back({range_m, range_m + wall_m, 1.0F});
       ++seen.used;
     }
   }
+  beams.push_back({kNan, kNan, 0.5F});  // of the bearings without one
   if (count != nullptr) {
     *count = seen;
   }
@@ -92,21 +97,15 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
   LocalOccupancy local{params_.size, params_.side_m / params_.size};
   local.stamp_s = scan.stamp_s;
   local.source = ObservationSource::kLidar;
+  float* occupancy = local.occupancy.data();
+  float* confidence = local.confidence.data();
+  const Bearing* bearings = bearings_.data();
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
-    if (bearings_[i].beam < 0) {
-      continue;
-    }
-    const Beam& beam = beams[static_cast<std::size_t>(bearings_[i].beam)];
-    const float range_m = bearings_[i].range_m;
-    if (range_m < beam.hit_m) {
-      local.occupancy[i] = 0.0F;
-      local.confidence[i] = 1.0F;
-    } else if (range_m <= beam.behind_m) {
-      local.occupancy[i] = 1.0F;
-      local.confidence[i] = 1.0F;
-    } else if (range_m > beam.behind_m && beam.behind_m > 0.0F) {
-      local.occupancy[i] = 1.0F;
-    }
+    const Beam& beam = beams[bearings[i].beam];
+    const float range_m = bearings[i].range_m;
+    const bool is_free = range_m < beam.hit_m;
+    occupancy[i] = is_free ? 0.0F : beam.occupancy;
+    confidence[i] = static_cast<float>(is_free | (range_m <= beam.behind_m));
   }
   return local;
 }

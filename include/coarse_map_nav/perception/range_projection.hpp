@@ -64,8 +64,8 @@ class RangeProjector {
  private:
   /// A cell as the sensor sees it.
   struct Bearing {
-    std::int32_t beam;  ///< the nearest beam, -1 outside the field of view
-    float range_m;      ///< distance of the cell's middle from the sensor
+    std::uint32_t beam;  ///< the nearest beam; as many as there are, outside the field of view
+    float range_m;       ///< distance of the cell's middle from the sensor
   };
   void tabulate(const RangeScan& scan);
 
