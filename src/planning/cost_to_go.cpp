@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 
+#include "coarse_map_nav/data/whole_number.hpp"
+
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -53,12 +55,11 @@ double CostToGo::operator()(Cell c) const {
 bool CostToGo::is_reachable(Cell c) const { return std::isfinite((*this)(c)); }
 
 double CostToGo::between_cells(Point2 p_cells) const {
-  const Cell home{static_cast<int>(std::floor(p_cells.x)), static_cast<int>(std::floor(p_cells.y))};
+  const Cell home{whole_below(p_cells.x), whole_below(p_cells.y)};
   if (!is_reachable(home)) {
     return static_cast<double>(kNoWay);
   }
-  const Cell low{static_cast<int>(std::floor(p_cells.x - 0.5)),
-                 static_cast<int>(std::floor(p_cells.y - 0.5))};
+  const Cell low{whole_below(p_cells.x - 0.5), whole_below(p_cells.y - 0.5)};
   double cost = 0.0;
   double weight = 0.0;
   for (const Cell step : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{1, 1}}) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/simulation/world.hpp"
 
+#include "coarse_map_nav/data/whole_number.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,9 +24,7 @@ constexpr double kDiagonal = 1.41421356 + 1e-3;
 /// A shorter leap costs more than the steps it saves.
 constexpr double kShortestLeap = 2.0;
 
-Cell floor_of(Point2 p) {
-  return {static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
-}
+Cell floor_of(Point2 p) { return {whole_below(p.x), whole_below(p.y)}; }
 
 }  // namespace
 
@@ -108,8 +108,9 @@ double World::cast(Point2 origin, Point2 direction, double reach_m) const {
   const auto next_y = [&] { return d.y == 0.0 ? kInfinity : (cell.y + ahead_y - p.y) * inverse_y; };
 
   double way = 0.0;
-  double way_x = next_x();
-  double way_y = next_y();
+  double way_x = 0.0;
+  double way_y = 0.0;
+  bool has_leapt = true;  // way_x and way_y are not yet those of the cell
   while (way <= reach) {
     const double clear = distance_(cell);
     if (clear == 0.0) {
@@ -119,9 +120,15 @@ double World::cast(Point2 origin, Point2 direction, double reach_m) const {
     if (leap > kShortestLeap) {
       way += leap;
       cell = floor_of({p.x + way * d.x, p.y + way * d.y});
+      has_leapt = true;
+      continue;
+    }
+    if (has_leapt) {
       way_x = next_x();
       way_y = next_y();
-    } else if (way_x < way_y) {
+      has_leapt = false;
+    }
+    if (way_x < way_y) {
       way = std::max(way, way_x);  // a leap may land just before a border it had passed
       cell.x += 2 * ahead_x - 1;
       way_x = next_x();
