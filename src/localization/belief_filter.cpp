@@ -75,6 +75,11 @@ RowSummary step_row(const double* in, const double* in_behind, const std::uint16
   return {sum[0] + sum[1], std::max(peak[0], peak[1])};
 }
 
+/// Of the peaks of a layer's rows: none of its cells holds anything.
+bool is_empty(const std::vector<double>& peaks) {
+  return std::all_of(peaks.begin(), peaks.end(), [](double peak) { return peak == 0.0; });
+}
+
 }  // namespace
 
 BeliefFilter::BeliefFilter(CoarseMap map, const LocalizationParams& params)
@@ -142,6 +147,13 @@ double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* lik
   double total = 0.0;
   for (const Heading h : kHeadings) {
     const auto k = static_cast<std::size_t>(index(h));
+    if (is_empty(peaks_[k])) {
+      if (!is_empty(scratch_peaks_[k])) {
+        std::fill(scratch_.layer(h).begin(), scratch_.layer(h).end(), 0.0);
+        std::fill(scratch_peaks_[k].begin(), scratch_peaks_[k].end(), 0.0);
+      }
+      continue;
+    }
     const Cell step = unit_step(turned(h, shift.quarter_turn - rolled));
     const double* values = likelihood == nullptr ? nullptr : likelihood->values[k].data();
     const bool is_by_cell = values != nullptr && !likelihood->is_by_neighbourhood;
@@ -173,6 +185,14 @@ double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* lik
   std::swap(belief_, scratch_);
   std::swap(peaks_, scratch_peaks_);
   return total;
+}
+
+HeadingSet BeliefFilter::possible_headings() const {
+  HeadingSet headings{};
+  for (std::size_t k = 0; k < headings.size(); ++k) {
+    headings[k] = !is_empty(peaks_[k]);
+  }
+  return headings;
 }
 
 void BeliefFilter::turn(int quarter_turns) {
@@ -210,7 +230,8 @@ void BeliefFilter::predict(const Displacement& driven) {
 
 Correction BeliefFilter::correct(const LocalOccupancy& seen, double residual_yaw_rad,
                                  double weight) {
-  const Likelihood& likelihood = measurement_->measure(seen, residual_yaw_rad, weight);
+  const Likelihood& likelihood =
+      measurement_->measure(seen, residual_yaw_rad, weight, possible_headings());
   return settle(apply({0, 0.0}, 0, &likelihood, params_.contradiction_evidence));
 }
 
@@ -230,7 +251,8 @@ Correction BeliefFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_
   }
   const Likelihood& likelihood = measurement_->measure(
       seen, residual_yaw(T_odom_robot),
-      is_first ? 1.0 : params_.news_in(std::hypot(driven.forward_m, driven.left_m)));
+      is_first ? 1.0 : params_.news_in(std::hypot(driven.forward_m, driven.left_m)),
+      possible_headings());
   const double evidence =
       apply(moves.back(), driven.quarter_turns, &likelihood, params_.contradiction_evidence);
   if (evidence == 0.0) {

@@ -114,18 +114,31 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
   } else {
     const double c = std::cos(residual_yaw_rad) * seen.resolution / cell_m;
     const double s = std::sin(residual_yaw_rad) * seen.resolution / cell_m;
+    // Neighbours mostly lie in the same bin: its sums are held until it changes.
+    std::size_t bin = 0;
+    double bin_weight = 0.0;
+    double bin_occupied = 0.0;
     for (int iy = 0; iy < seen.size; ++iy) {
       for (int ix = 0; ix < seen.size; ++ix) {
         const double x = c * (ix - middle) - s * (iy - middle) + 0.5 * n;
         const double y = s * (ix - middle) + c * (iy - middle) + 0.5 * n;
         const std::size_t i = seen.index_of(ix, iy);
         if (x >= 0.0 && y >= 0.0 && x < n && y < n && counts(i)) {
-          const auto bin = static_cast<std::size_t>(static_cast<int>(y) * n + static_cast<int>(x));
-          weight[bin] += 1.0;
-          occupied[bin] += static_cast<double>(seen.occupancy[i]);
+          const auto here = static_cast<std::size_t>(static_cast<int>(y) * n + static_cast<int>(x));
+          if (here != bin) {
+            weight[bin] = bin_weight;
+            occupied[bin] = bin_occupied;
+            bin = here;
+            bin_weight = weight[bin];
+            bin_occupied = occupied[bin];
+          }
+          bin_weight += 1.0;
+          bin_occupied += static_cast<double>(seen.occupancy[i]);
         }
       }
     }
+    weight[bin] = bin_weight;
+    occupied[bin] = bin_occupied;
   }
   std::vector<double> window(bins, 0.5);
   for (std::size_t i = 0; i < bins; ++i) {
@@ -155,12 +168,23 @@ OverlapModel::OverlapModel(const CoarseMap& map, const MeasurementModelParams& p
       row_codes_.push_back(code);
     }
   }
+  const Belief layout{map.width(), map.height()};
+  for (std::size_t i = 0; i < map.occupied().size(); ++i) {
+    const Cell c = map.occupied().cell_at(i);
+    if (map.is_free(c)) {
+      free_cells_.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(layout.padded_index(c))});
+    }
+  }
 }
 
 const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double residual_yaw_rad,
-                                        double weight) {
+                                        double weight, const HeadingSet& headings) {
   const std::vector<double> window = reduce(seen, params_, residual_yaw_rad);
   for (const Heading h : kHeadings) {
+    if (!headings[static_cast<std::size_t>(index(h))]) {
+      continue;
+    }
     if (likelihood_.is_by_neighbourhood) {
       fill_by_neighbourhood(window, h, weight * params_.exponent);
     } else {
@@ -214,18 +238,15 @@ void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading headi
                        parts.back().sums.data());
     }
   }
-  const Belief layout{map_.width(), map_.height()};
   const auto width = static_cast<std::size_t>(map_.width());
   std::vector<double>& values = likelihood_.values[static_cast<std::size_t>(index(heading))];
-  for (int y = 0; y < map_.height(); ++y) {
-    for (int x = 0; x < map_.width(); ++x) {
-      const std::uint32_t* codes = row_codes_.data() + map_.occupied().index_of({x, y});
-      double sum = 0.0;
-      for (const Part& part : parts) {
-        sum += part.sums[(codes[part.row * width] >> part.first_bit) % kNeighbourhoods];
-      }
-      values[layout.padded_index({x, y})] = sum;
+  for (const FreeCell& cell : free_cells_) {
+    const std::uint32_t* codes = row_codes_.data() + cell.index;
+    double sum = 0.0;
+    for (const Part& part : parts) {
+      sum += part.sums[(codes[part.row * width] >> part.first_bit) % kNeighbourhoods];
     }
+    values[cell.padded] = sum;
   }
   raise(values, exponent);
 }

@@ -120,6 +120,8 @@ class BeliefFilter : public Localizer {
   /// have been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where
   /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
+  /// With any probability at all.
+  HeadingSet possible_headings() const;
   void turn(int quarter_turns);
   void restart(Belief belief);
   void start_from(Belief belief);

@@ -38,10 +38,14 @@ struct MeasurementModelParams {
   }
 };
 
+/// Which of the four headings.
+using HeadingSet = std::array<bool, 4>;
+constexpr HeadingSet kAllHeadings{true, true, true, true};
+
 /// P(seen | heading, cell) up to a factor, for all of them.
 ///
 /// Per heading either one value for each of the 512 neighbourhoods (see neighbourhood.hpp), or one
-/// for each cell in the layout of a Belief's layer.
+/// for each free cell in the layout of a Belief's layer.
 struct Likelihood {
   bool is_by_neighbourhood = false;
   std::array<std::vector<double>, 4> values;
@@ -53,9 +57,10 @@ class MeasurementModel {
   /// `residual_yaw_rad`: how far the robot is turned from the nearest odometry axis; the
   /// observation is turned back by it, so that headings are those of the axes.
   /// `weight` in [0, 1]: how much of this look is news; the likelihood is raised to it.
+  /// Only `headings` are looked at: the others' values mean nothing.
   /// The result is good until the next call.
   virtual const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad,
-                                    double weight) = 0;
+                                    double weight, const HeadingSet& headings) = 0;
 };
 
 /// The observation averaged down to n^2 values in [0, 1], x fastest, in the axes of
@@ -73,8 +78,8 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
 class OverlapModel : public MeasurementModel {
  public:
   OverlapModel(const CoarseMap& map, const MeasurementModelParams& params);
-  const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad,
-                            double weight) override;
+  const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad, double weight,
+                            const HeadingSet& headings) override;
 
  private:
   void fill_by_neighbourhood(const std::vector<double>& window, Heading heading, double exponent);
@@ -84,6 +89,11 @@ class OverlapModel : public MeasurementModel {
   CoarseMap map_;
   /// Bit i at (x, y): the map's cell (x - reach + i, y) is occupied; y from -reach on.
   std::vector<std::uint32_t> row_codes_;
+  struct FreeCell {
+    std::uint32_t index;   ///< in the map
+    std::uint32_t padded;  ///< in a layer
+  };
+  std::vector<FreeCell> free_cells_;
   Likelihood likelihood_;
 };
 

@@ -95,8 +95,8 @@ TEST(OverlapModel, APerfectMatchHasLikelihoodOneAndItsOppositeZero) {
     const auto at = [&](const Likelihood& likelihood) {
       return likelihood.values[north][likelihood.is_by_neighbourhood ? codes[cell] : cell];
     };
-    EXPECT_NEAR(at(model.measure(seen, 0.0, 1.0)), 1.0, 1e-12) << n;
-    EXPECT_EQ(at(model.measure(opposite, 0.0, 1.0)), 0.0) << n;
+    EXPECT_NEAR(at(model.measure(seen, 0.0, 1.0, kAllHeadings)), 1.0, 1e-12) << n;
+    EXPECT_EQ(at(model.measure(opposite, 0.0, 1.0, kAllHeadings)), 0.0) << n;
   }
 }
 
