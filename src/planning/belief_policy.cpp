@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace cmn {
@@ -39,7 +38,7 @@ void BeliefPolicy::reset() {
   if (map_) {
     map_->forget_failures();
   }
-  is_stale_ = true;
+  has_goal_ = false;
   last_ = ActionType::kStop;
   target_.reset();
   trail_.clear();
@@ -62,22 +61,28 @@ void BeliefPolicy::look(const Situation& situation) {
   }
   if (repair_.enabled && situation.confidence >= repair_.confidence) {
     const double yaw_rad = situation.yaw_rad;
-    is_stale_ |=
-        map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
-                   situation.position_cells, yaw_rad, situation.scale);
+    map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
+               situation.position_cells, yaw_rad, situation.scale);
     if (situation.is_stuck) {
       const double ahead = situation.scale * (lattice_.step_m() + lattice_.least_clearance_m()) /
                            situation.map.resolution();
-      is_stale_ |= map_->mark_failed(
+      map_->mark_failed(
           map_->part_of(situation.position_cells + turned(Point2{ahead, 0.0}, yaw_rad)));
     }
   }
-  if (is_stale_) {
-    cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
-    is_stale_ = false;
-  }
+  update_cost_to_go(situation);
   hypotheses_ = hypotheses(situation);
   best_ = best_state(situation, hypotheses_);
+}
+
+void BeliefPolicy::update_cost_to_go(const Situation& situation) {
+  const std::vector<Cell> changed = map_->take_changed();
+  if (has_goal_) {
+    cost_to_go_.change(*map_, changed);
+  } else {
+    cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
+    has_goal_ = true;
+  }
 }
 
 std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) const {
@@ -128,35 +133,23 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
     origins.push_back(static_cast<double>(map_->cuts()) * hypothesis.position_cells);
     axes.push_back(turned(Point2{parts_per_m, 0.0}, hypothesis.yaw_rad));
   }
-  // The four headings of one place share the expectation.
-  Cell place{std::numeric_limits<int>::max(), 0};
-  double to_go_m = 0.0;
   double least_m = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   const std::vector<LatticeState>& states = lattice_.states();
-  std::vector<double> known;
-  const int reach =
-      1 + std::accumulate(states.begin(), states.end(), 0, [](int most, const LatticeState& s) {
-        return std::max({most, std::abs(s.offset.x), std::abs(s.offset.y)});
-      });
-  const int side = 2 * reach + 1;
-  known.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1.0);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    place = states[i].offset;
-    double& memo = known[static_cast<std::size_t>((place.y + reach) * side + place.x + reach)];
-    if (memo < 0.0) {
-      const Point2 p = lattice_.position_of(states[i]);
-      memo = 0.0;
-      for (std::size_t j = 0; j < at.size(); ++j) {
-        const Point2 there{origins[j].x + axes[j].x * p.x - axes[j].y * p.y,
-                           origins[j].y + axes[j].y * p.x + axes[j].x * p.y};
-        memo += at[j].weight * cost_to_go_.between(there);
-      }
-      memo *= part_m;
+  // The four headings of one place share the expectation: only the cheapest can be the best.
+  for (const std::size_t i : lattice_.places()) {
+    if (states[i].cost_m - kResolve_m >= least_m) {
+      break;  // and so are all that follow
     }
-    to_go_m = memo;
-    double cost_m = states[i].cost_m + kGreed * to_go_m;
-    if (is_near_target(place)) {
+    const Point2 p = lattice_.position_of(states[i]);
+    double parts_to_go = 0.0;
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      const Point2 there{origins[j].x + axes[j].x * p.x - axes[j].y * p.y,
+                         origins[j].y + axes[j].y * p.x + axes[j].x * p.y};
+      parts_to_go += at[j].weight * cost_to_go_.between(there);
+    }
+    double cost_m = states[i].cost_m + kGreed * (part_m * parts_to_go);
+    if (is_near_target(states[i].offset)) {
       cost_m -= kResolve_m;
     }
     if (cost_m < least_m - 1e-6) {
@@ -199,11 +192,24 @@ ActionType BeliefPolicy::explore(std::mt19937_64& rng) {
   const std::vector<LatticeState>& states = lattice_.states();
   std::size_t best = 0;
   double most_m = 0.0;
-  for (std::size_t i = 1; i < states.size(); ++i) {
+  // Of the states of one place the cheapest is the best; where the robot stands, that after a turn.
+  std::vector<std::size_t> candidates = lattice_.places();
+  candidates.front() = static_cast<std::size_t>(std::find_if(states.begin() + 1, states.end(),
+                                                             [](const LatticeState& s) {
+                                                               return s.offset == Cell{0, 0};
+                                                             }) -
+                                                states.begin());
+  std::sort(candidates.begin(), candidates.end());
+  for (const std::size_t i : candidates) {
     double new_m = kNewEnough_m;
+    int least_square = std::numeric_limits<int>::max();
     for (const Cell been : trail_) {
       const Cell off = states[i].offset - been;
-      new_m = std::min(new_m, lattice_.step_m() * std::hypot(off.x, off.y));
+      const int square = off.x * off.x + off.y * off.y;
+      if (square <= least_square) {
+        least_square = square;
+        new_m = std::min(new_m, lattice_.step_m() * std::hypot(off.x, off.y));
+      }
     }
     double worth_m = new_m - kHaste * states[i].cost_m;
     if (is_near_target(states[i].offset)) {
@@ -240,7 +246,7 @@ ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng
   // Near the goal there is nothing to get through to; not sure of it yet, the robot looks around.
   const bool is_near_goal = off_m < kNearGoal_m;
   for (int i = 0; best_ == 0 && !is_near_goal && i < kMostGaps && close_gap(situation); ++i) {
-    cost_to_go_ = RepairedCostToGo{*map_, map_->part_of(situation.goal_cells)};
+    update_cost_to_go(situation);
     best_ = best_state(situation, hypotheses_);
   }
   ActionType action = lattice_.first_action(best_);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/map_repair.hpp"
 
+#include "coarse_map_nav/data/whole_number.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,6 +33,10 @@ int RepairedMap::cost(Cell c) const {
          : part.is_open  ? 1
          : part.was_seen ? params_.seen_wall_cost
                          : params_.drawn_wall_cost;
+}
+
+int RepairedMap::dearest() const {
+  return std::max({kFailedCost, params_.drawn_wall_cost, params_.seen_wall_cost});
 }
 
 void RepairedMap::forget() {
@@ -63,8 +69,7 @@ bool RepairedMap::fuse(const LocalOccupancy& local, const ClearanceMap& clearanc
     for (int ix = 0; ix < local.size; ++ix) {
       const Point2 p =
           corner + static_cast<double>(ix) * along_x + static_cast<double>(iy) * along_y;
-      Tally& tally =
-          tally_of({static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))});
+      Tally& tally = tally_of({whole_below(p.x), whole_below(p.y)});
       const double clear_m = clearance.at_cell(local.index_of(ix, iy));
       tally.known += clear_m >= 0.0;
       tally.drivable += clear_m >= least_clearance_m;
@@ -91,7 +96,10 @@ bool RepairedMap::fuse(const LocalOccupancy& local, const ClearanceMap& clearanc
           std::clamp(part.looks + (is_open ? 1 : -1), -kMostLooks, kMostLooks));
       // At 0 it stays what it was: a part at the rim of a wall does not flicker.
       part.is_open = part.looks > 0 || (part.looks == 0 && part.is_open);
-      has_changed |= cost(c) != before;
+      if (cost(c) != before) {
+        changed_.push_back(c);
+        has_changed = true;
+      }
     }
   }
   return has_changed;
@@ -102,6 +110,7 @@ bool RepairedMap::mark_failed(Cell part) {
     return false;
   }
   parts_(part).has_failed = true;
+  changed_.push_back(part);
   return true;
 }
 

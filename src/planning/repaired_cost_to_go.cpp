@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/repaired_cost_to_go.hpp"
 
+#include "coarse_map_nav/data/whole_number.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,57 +13,129 @@ namespace cmn {
 namespace {
 
 /// Between neighbours without a wall between them the cost differs by no more, even on a diagonal.
-constexpr double kSlope = 2.0;
+constexpr int kSlope = 2;
+constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
 RepairedCostToGo::RepairedCostToGo(const RepairedMap& map, Cell goal)
-    : goal_{goal},
-      cost_{map.width(), map.height(), std::numeric_limits<std::int32_t>::max()},
-      towards_{map.width(), map.height()} {
-  int dearest = 1;
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      dearest = std::max(dearest, map.cost({x, y}));
+    : goal_{goal}, width_{map.width()}, height_{map.height()} {
+  // Outside nothing is ever cheaper.
+  parts_.assign(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2),
+                Part{std::numeric_limits<std::int32_t>::min(), 0, Heading::kEast});
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      parts_[index_of({x, y})] = {kUnknown, static_cast<std::uint16_t>(map.cost({x, y})),
+                                  Heading::kEast};
     }
   }
-  std::vector<std::vector<Cell>> buckets(static_cast<std::size_t>(dearest) + 1);
-  cost_(goal) = 0;
-  buckets[0].push_back(goal);
-  std::size_t waiting = 1;
-  for (std::int32_t total = 0; waiting > 0; ++total) {
-    std::vector<Cell>& bucket = buckets[static_cast<std::size_t>(total) % buckets.size()];
-    for (const Cell here : bucket) {
-      if (cost_(here) != total) {
-        continue;
-      }
-      // Towards the goal one enters `here`: the price is that of this part, from all its sides.
-      const std::int32_t longer = total + map.cost(here);
-      for (const Heading h : kHeadings) {
-        const Cell c = here + unit_step(h);
-        if (cost_.contains(c) && longer < cost_(c)) {
-          cost_(c) = longer;
-          towards_(c) = turned(h, 2);
-          buckets[static_cast<std::size_t>(longer) % buckets.size()].push_back(c);
-          ++waiting;
-        }
+  buckets_.resize(static_cast<std::size_t>(map.dearest()) + 1);
+  go_back_to(0);
+}
+
+void RepairedCostToGo::offer(std::uint32_t from, std::int32_t least) const {
+  // Towards the goal one enters `from`: the price is that of this part, from all its sides.
+  const std::int32_t cost = parts_[from].cost + parts_[from].price;
+  if (cost < least) {
+    return;
+  }
+  const std::int32_t stride = width_ + 2;
+  const std::array<std::int32_t, 4> steps{1, stride, -1, -stride};  // in the order of kHeadings
+  std::vector<std::uint32_t>& bucket = buckets_[static_cast<std::size_t>(cost) % buckets_.size()];
+  for (const Heading h : kHeadings) {
+    const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(from) +
+                                              steps[static_cast<std::size_t>(index(h))]);
+    Part& part = parts_[i];
+    if (cost < part.cost) {
+      part.cost = cost;
+      part.towards = turned(h, 2);
+      bucket.push_back(i);
+      ++waiting_;
+    }
+  }
+}
+
+void RepairedCostToGo::search_to(std::int32_t cost) const {
+  for (; searched_ <= cost && waiting_ > 0; ++searched_) {
+    std::vector<std::uint32_t>& bucket =
+        buckets_[static_cast<std::size_t>(searched_) % buckets_.size()];
+    for (const std::uint32_t i : bucket) {
+      if (parts_[i].cost == searched_) {
+        searched_parts_.push_back(i);
+        offer(i, searched_);
       }
     }
-    waiting -= bucket.size();
+    waiting_ -= bucket.size();
     bucket.clear();
   }
 }
 
+void RepairedCostToGo::go_back_to(std::int32_t cost) {
+  for (std::vector<std::uint32_t>& bucket : buckets_) {
+    for (const std::uint32_t i : bucket) {
+      const bool is_outdated = parts_[i].cost < searched_;  // a cheaper way was found since
+      parts_[i].cost = is_outdated ? parts_[i].cost : kUnknown;
+    }
+    bucket.clear();
+  }
+  waiting_ = 0;
+  while (!searched_parts_.empty() && parts_[searched_parts_.back()].cost >= cost) {
+    parts_[searched_parts_.back()].cost = kUnknown;
+    searched_parts_.pop_back();
+  }
+  searched_ = cost;
+  if (cost == 0) {
+    parts_[index_of(goal_)].cost = 0;
+    buckets_[0].push_back(static_cast<std::uint32_t>(index_of(goal_)));
+    waiting_ = 1;
+    return;
+  }
+  // What had been offered by those that remain, in the same order.
+  const std::int32_t farthest = cost - static_cast<std::int32_t>(buckets_.size());
+  const auto first =
+      std::lower_bound(searched_parts_.begin(), searched_parts_.end(), farthest,
+                       [&](std::uint32_t i, std::int32_t bound) { return parts_[i].cost < bound; });
+  for (auto i = first; i != searched_parts_.end(); ++i) {
+    offer(*i, cost);
+  }
+}
+
+void RepairedCostToGo::change(const RepairedMap& map, const std::vector<Cell>& parts) {
+  std::int32_t nearest = searched_;
+  for (const Cell c : parts) {
+    Part& part = parts_[index_of(c)];
+    part.price = static_cast<std::uint16_t>(map.cost(c));
+    nearest = std::min(nearest, part.cost);
+  }
+  if (nearest < searched_) {
+    go_back_to(nearest);
+  }
+}
+
+double RepairedCostToGo::operator()(Cell part) const {
+  if (!contains(part)) {
+    return kOutside;
+  }
+  const std::size_t i = index_of(part);
+  while (parts_[i].cost > searched_) {
+    search_to(searched_);
+  }
+  return static_cast<double>(parts_[i].cost);
+}
+
 double RepairedCostToGo::between(Point2 p_parts) const {
-  const Cell home{static_cast<int>(std::floor(p_parts.x)), static_cast<int>(std::floor(p_parts.y))};
+  const Cell home{whole_below(p_parts.x), whole_below(p_parts.y)};
   const double here = (*this)(home);
-  const Cell low{static_cast<int>(std::floor(p_parts.x - 0.5)),
-                 static_cast<int>(std::floor(p_parts.y - 0.5))};
+  if (here == kOutside) {
+    return here;
+  }
+  search_to(static_cast<std::int32_t>(here) + kSlope);
+  const Cell low{whole_below(p_parts.x - 0.5), whole_below(p_parts.y - 0.5)};
   double cost = 0.0;
   double weight = 0.0;
   for (const Cell step : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{1, 1}}) {
     const Cell part = low + step;
-    const double there = (*this)(part);
+    const auto there = static_cast<double>(parts_[index_of(part)].cost);
     if (std::abs(there - here) <= kSlope) {
       const double share =
           (1.0 - std::abs(p_parts.x - 0.5 - part.x)) * (1.0 - std::abs(p_parts.y - 0.5 - part.y));
@@ -73,10 +148,10 @@ double RepairedCostToGo::between(Point2 p_parts) const {
 
 std::optional<Cell> RepairedCostToGo::next(Cell part) const {
   // Not the neighbour of the least cost: a wall beside costs little once one is in it.
-  if (part == goal_ || !cost_.contains(part)) {
+  if (part == goal_ || (*this)(part) == kOutside) {
     return std::nullopt;
   }
-  return part + unit_step(towards_(part));
+  return part + unit_step(parts_[index_of(part)].towards);
 }
 
 }  // namespace cmn

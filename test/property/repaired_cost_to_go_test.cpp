@@ -17,19 +17,24 @@ namespace cmn {
 namespace {
 
 /// Drawn at random, with some looks at random and some failures.
+void look_anywhere(std::mt19937_64& rng, RepairedMap& map) {
+  LocalOccupancy seen = random_observation(rng, 24, 1.2);
+  for (float& o : seen.occupancy) {
+    o = o > 0.99F ? 1.0F : 0.0F;
+  }
+  ClearanceMap clearance;
+  clearance.measure(seen, 0.19);
+  const Point2 position_cells{map.width() * draw_uniform(rng) / map.cuts(),
+                              map.height() * draw_uniform(rng) / map.cuts()};
+  map.fuse(seen, clearance, 0.19, position_cells, 6.0 * draw_uniform(rng));
+}
+
 RepairedMap random_repaired_map(std::mt19937_64& rng) {
   const int width = 2 + static_cast<int>(draw_index(rng, 7));
   const int height = 2 + static_cast<int>(draw_index(rng, 7));
   RepairedMap map{random_map(rng, width, height), MapRepairParams{}};
   for (int i = 0; i < 4; ++i) {
-    LocalOccupancy seen = random_observation(rng, 24, 1.2);
-    for (float& o : seen.occupancy) {
-      o = o > 0.99F ? 1.0F : 0.0F;
-    }
-    ClearanceMap clearance;
-    clearance.measure(seen, 0.19);
-    map.fuse(seen, clearance, 0.19, {width * draw_uniform(rng), height * draw_uniform(rng)},
-             6.0 * draw_uniform(rng));
+    look_anywhere(rng, map);
     map.mark_failed({static_cast<int>(draw_index(rng, map.width())),
                      static_cast<int>(draw_index(rng, map.height()))});
   }
@@ -70,6 +75,34 @@ TEST(RepairedCostToGoProperty, EqualsBruteForce) {
     const Grid<double> expected = brute_force_costs(map, goal);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       ASSERT_EQ(cost_to_go(expected.cell_at(i)), expected[i]);
+    }
+  }
+}
+
+TEST(RepairedCostToGoProperty, AfterAnyChangesIsThatOfASearchFromTheBeginning) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 rng{seed};
+    RepairedMap map = random_repaired_map(rng);
+    const Cell goal = random_part(rng, map);
+    RepairedCostToGo cost_to_go{map, goal};
+    map.take_changed();
+    for (int round = 0; round < 20; ++round) {
+      if (draw_uniform(rng) < 0.3) {
+        map.mark_failed(random_part(rng, map));
+      } else {
+        look_anywhere(rng, map);
+      }
+      cost_to_go.change(map, map.take_changed());
+      const RepairedCostToGo anew{map, goal};
+      // Asked for less than all, the search ends somewhere on the way.
+      for (int i = 0; i < 3; ++i) {
+        const Cell part = random_part(rng, map);
+        ASSERT_EQ(cost_to_go.next(part), anew.next(part));
+        ASSERT_EQ(cost_to_go(part), anew(part));
+        const Point2 p{map.width() * draw_uniform(rng), map.height() * draw_uniform(rng)};
+        ASSERT_EQ(cost_to_go.between(p), anew.between(p));
+      }
     }
   }
 }

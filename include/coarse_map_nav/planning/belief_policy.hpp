@@ -38,6 +38,7 @@ class BeliefPolicy : public Policy {
     double yaw_rad;
     double weight;
   };
+  void update_cost_to_go(const Situation& situation);
   std::vector<Hypothesis> hypotheses(const Situation& situation) const;
   /// The state of the lattice with the least expected cost; 0 when that is to stay.
   std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
@@ -53,7 +54,7 @@ class BeliefPolicy : public Policy {
   MapRepairParams repair_;
   std::optional<RepairedMap> map_;
   RepairedCostToGo cost_to_go_;
-  bool is_stale_ = true;                ///< cost_to_go_ no longer is that of map_
+  bool has_goal_ = false;               ///< cost_to_go_ leads to it
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
   std::size_t best_ = 0;                ///< state of the lattice to go to; 0: stay
   std::optional<Cell> target_;  ///< of the last decision, from where the robot is now [steps]

@@ -10,6 +10,7 @@
 #include "coarse_map_nav/planning/local_lattice.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace cmn {
@@ -56,16 +57,20 @@ class RepairedMap {
   bool contains(Cell part) const { return parts_.contains(part); }
   /// What a step into this part costs, in steps into a free one.
   int cost(Cell part) const;
+  /// No step ever costs more.
+  int dearest() const;
   bool is_open(Cell part) const { return parts_(part).is_open && !parts_(part).has_failed; }
 
   /// Learns from what the robot sees around itself, standing at `position_cells` of the drawing
   /// with its x axis along `yaw_rad` of the grid; a metre on the ground is `scale` metres drawn.
-  /// True when anything changed.
+  /// True when any cost changed.
   bool fuse(const LocalOccupancy& local, const ClearanceMap& clearance, double least_clearance_m,
             Point2 position_cells, double yaw_rad, double scale = 1.0);
   /// The robot could not get through here, whatever it sees. Kept until forget_failures().
   bool mark_failed(Cell part);
   void forget_failures();
+  /// The parts whose cost fuse() and mark_failed() have changed since this was last asked.
+  std::vector<Cell> take_changed() { return std::exchange(changed_, {}); }
   /// As drawn again.
   void forget();
 
@@ -91,6 +96,7 @@ class RepairedMap {
     int known = 0;
     int drivable = 0;
   };
+  std::vector<Cell> changed_;
   std::vector<Tally> tallies_;  ///< scratch, of the parts in view
 };
 
