@@ -101,6 +101,28 @@ gallery=$out/ablated/gallery
 grep -qE '^version: [0-9]+\.[0-9]+\.[0-9]+(, git [0-9a-z.-]+)?$' "$out/whole/run.yaml" ||
   wrong "$(cat "$out/whole/run.yaml")"
 
+# A closet of 1.8 m has no way of 3 m: it is named, and the rest is played.
+{
+  printf 'P5\n40 40\n255\n'
+  for row in $(seq 40); do
+    if ((row <= 2 || row > 38)); then head -c 40 /dev/zero; else
+      head -c 2 /dev/zero && head -c 36 /dev/zero | tr '\0' '\377' && head -c 2 /dev/zero
+    fi
+  done
+} >"$out/closet.pgm"
+{
+  printf 'image: closet.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n'
+  printf 'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n'
+} >"$out/closet.yaml"
+closet() {
+  "$program" --world "$out/closet.yaml" "$worlds/home.yaml" --method true_pose --episodes 2 --out "$out/closet" "$@"
+}
+closet >"$out/closet.txt"
+grep -q 'episodes=2$' "$out/closet.txt" || wrong "$(cat "$out/closet.txt")"
+grep -qx -- '- closet, CL, 0.40 m/cell: 0, 1' "$out/closet/report.md" || wrong "the closet is not named in report.md"
+[[ $(grep -c '^CL,closet,.*,no route,' "$out/closet/episodes.csv") == 2 ]] || wrong "$(cat "$out/closet/episodes.csv")"
+closet --resume | diff - "$out/closet.txt" >&2 || wrong "resumed with a closet: other results"
+
 refused() {  # EXPECTED ARGUMENT...: exit code 1 and a sentence with EXPECTED in it
   local expected=$1 status=0 answer
   shift
