@@ -24,7 +24,7 @@
 #include "cmn_evaluate/gallery.hpp"
 #include "cmn_evaluate/merge.hpp"
 #include "cmn_evaluate/replay.hpp"
-#include "cmn_version.hpp"
+#include "version/cmn_version.hpp"
 #include <boost/program_options.hpp>
 
 namespace {
