@@ -116,7 +116,7 @@ std::string task_section(const std::vector<EpisodeTable>& tables) {
   for (const EpisodeTable& table : tables) {
     const EpisodeTable whole = {table.task, table.mpp, without_variants(table.rows)};
     text += text_of("### %s, %.2f m/cell\n\n", table.task.c_str(), table.mpp) +
-            success_table(whole) + kidnap_table(whole) + cost_table(whole) + building_table(whole) +
+            success_table(whole) + kidnap_table(table) + cost_table(whole) + building_table(whole) +
             paired_table(whole);
     const std::string ablation = ablation_table(table);
     text +=
