@@ -3,15 +3,18 @@
 #include "coarse_map_nav/localization/wall_compass.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace cmn {
 namespace {
 
-constexpr double kWidest_rad = 10.0 * kPi / 180.0;  ///< sought to either side
-constexpr int kSteps = 10;                          ///< a degree each
+constexpr double kDegree = kPi / 180.0;
+/// Sought to either side, a degree at a time [deg]; the walls' own quarter turns are 90 apart.
+constexpr int kNarrowest = 10;
+constexpr int kWidest = 30;
+/// Half of what is sought, in standard deviations of what is expected.
+constexpr double kSigmas = 3.0;
 constexpr std::size_t kFewestHits = 60;
 
 }  // namespace
@@ -38,6 +41,10 @@ void WallCompass::look(const LocalOccupancy& seen, double yaw_rad) {
   if (!params_.enabled) {
     return;
   }
+  const double turn_deg = wrap_angle(yaw_rad - last_yaw_rad_.value_or(yaw_rad)) / kDegree;
+  last_yaw_rad_ = yaw_rad;
+  const double lost = params_.turn_share * turn_deg / params_.look_sigma_deg;
+  variance_ += lost * lost;
   // The near side of what is occupied: cells beside one that was seen to be free.
   std::vector<Point2> hits;
   const auto is_free = [&](int ix, int iy) {
@@ -62,12 +69,14 @@ void WallCompass::look(const LocalOccupancy& seen, double yaw_rad) {
   counts_.resize(4 * half);
   // In the grid's frame the axes are now expected at this yaw, up to quarter turns.
   const double expected_rad = std::remainder(axes_yaw_rad_ - yaw_rad, kPi / 2.0);
-  std::array<double, 2 * kSteps + 1> sharp{};
+  const int reach =
+      std::clamp(static_cast<int>(kSigmas * params_.look_sigma_deg * std::sqrt(variance_)),
+                 kNarrowest, kWidest);
+  std::vector<double> sharp(static_cast<std::size_t>(2 * reach + 1));
   double mean = 0.0;
   std::size_t best = 0;
   for (std::size_t i = 0; i < sharp.size(); ++i) {
-    const double off_rad = (static_cast<double>(i) - kSteps) * kWidest_rad / kSteps;
-    sharp[i] = sharpness(hits, expected_rad + off_rad);
+    sharp[i] = sharpness(hits, expected_rad + (static_cast<double>(i) - reach) * kDegree);
     mean += sharp[i] / static_cast<double>(sharp.size());
     best = sharp[i] > sharp[best] ? i : best;
   }
@@ -80,8 +89,12 @@ void WallCompass::look(const LocalOccupancy& seen, double yaw_rad) {
   const double after = sharp[best + 1];
   const double bend = before - 2.0 * sharp[best] + after;
   const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-  const double off_rad = (static_cast<double>(best) - kSteps + shift) * kWidest_rad / kSteps;
-  axes_yaw_rad_ += params_.gain * off_rad;
+  const double off_deg = static_cast<double>(best) - reach + shift;
+  // The walk from look to look with which the gain settles at params_.gain.
+  const double walk = params_.gain * params_.gain / std::max(1e-9, 1.0 - params_.gain);
+  const double gain = (variance_ + walk) / (variance_ + walk + 1.0);
+  axes_yaw_rad_ += gain * off_deg * kDegree;
+  variance_ = gain;
 }
 
 }  // namespace cmn

@@ -61,6 +61,25 @@ TEST(WallCompass, FollowsTheAxesPastAQuarterTurn) {
   }
 }
 
+TEST(WallCompass, KeepsUpWithAnOdometryThatLosesPartOfEachTurn) {
+  // A quarter turn to the left again and again, of which it says so much less.
+  for (const double lost : {0.1, -0.1}) {
+    SCOPED_TRACE("lost " + std::to_string(lost));
+    WallCompassParams params;
+    params.turn_share = 0.05;
+    WallCompass compass{params};
+    for (int i = 0; i < 40; ++i) {
+      const double true_yaw_rad = i * kPi / 2.0 + 0.2;
+      const double yaw_rad = (1.0 - lost) * i * kPi / 2.0 + 0.2;
+      compass.look(view(depth_of_room, -true_yaw_rad), yaw_rad);
+      const double off_rad =
+          std::remainder(compass.axes_yaw_rad() - (yaw_rad - true_yaw_rad), kPi / 2.0);
+      ASSERT_NEAR(off_rad / kDegree, 0.0, 3.0) << i;
+    }
+    EXPECT_NEAR(compass.axes_yaw_rad() / kDegree, -lost * 39 * 90.0, 3.0);
+  }
+}
+
 TEST(WallCompass, FindsNoAxesInARoundHall) {
   WallCompass compass{WallCompassParams{}};
   EXPECT_EQ(axes_after(compass, depth_of_round_hall, 5.0 * kDegree, 25), 0.0);
