@@ -9,20 +9,6 @@
 #include <utility>
 
 namespace cmn {
-namespace {
-
-/// Of the greatest weight; less is dropped, and with it the work on it.
-constexpr float kLeastShare = 1e-9F;
-/// Share of a whole new look in the running mean of the fit.
-constexpr double kFitGain = 0.3;
-/// Free rays are probed at these shares of their range.
-constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
-
-Cell rounded(Point2 p) {
-  return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
-}
-
-}  // namespace
 
 ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
                          double converged_confidence)
@@ -36,6 +22,7 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
       compass_{params.compass},
       belief_{map.width(), map.height()} {
   stride_ = belief_.stride();
+  per_stride_ = 1.0 / stride_;
   for (int i = 0; i < params.scales; ++i) {
     const double share = params.scales == 1 ? 0.0 : static_cast<double>(i) / (params.scales - 1);
     const double scale =
@@ -58,6 +45,7 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
     log_of_hit_.push_back(static_cast<float>(std::log(hit + params.range_random)));
     log_of_free_.push_back(static_cast<float>(std::log(free + params.range_random)));
   }
+  log_of_rim_ = std::log(params.rim_penalty + 1e-9);
   scratch_.assign(belief_.padded_size(), 0.0F);
   reset();
 }
@@ -167,138 +155,9 @@ bool ScaleFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
 }
 
 Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
-  const int i = static_cast<int>(padded_index);
-  return {i % stride_ - 1, i / stride_ - 1};
-}
-
-ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet& sheet,
-                                            int layer) const {
-  Evidence evidence;
-  int known = 0;
-  for (const Ray& ray : rays) {
-    known += ray.is_known();
-  }
-  const auto range_weight = static_cast<float>(known > 0 ? params_.range_weight / known : 0.0);
-  const int cap = code_.coded(params_.reach_m * sheet.scale);
-  for (int b = 0; b < kBearings; ++b) {
-    const Ray& ray = rays[static_cast<std::size_t>(b)];
-    auto& by_code = evidence.by_code[static_cast<std::size_t>(b)];
-    if (!ray.is_known()) {
-      by_code.fill(0.0F);
-      continue;
-    }
-    const int seen = code_.coded(ray.range_m * sheet.scale);
-    const std::vector<float>& of_error = ray.is_hit ? log_of_hit_ : log_of_free_;
-    for (int q = 0; q < 256; ++q) {
-      by_code[static_cast<std::size_t>(q)] =
-          range_weight * of_error[static_cast<std::size_t>(seen - std::min(q, cap) + 255)];
-    }
-    const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b));
-    const auto offset_at = [&](double range_m) {
-      return field_.offset_of(turned(
-          rounded(sheet.offset + (range_m * sheet.scale / map_.resolution()) * ahead), layer));
-    };
-    if (ray.is_hit) {
-      evidence.hits.push_back(offset_at(ray.range_m));
-    }
-    if (b % 2 == 0) {
-      for (const double share : kProbes) {
-        evidence.frees.push_back(offset_at(share * ray.range_m));
-      }
-    }
-  }
-  return evidence;
-}
-
-double ScaleFilter::range_log_likelihood(const Evidence& evidence, int layer,
-                                         std::uint32_t cell) const {
-  const std::uint8_t* expected = table_.row(cell);
-  // The look's bearing b lies at b + layer quarter turns on the drawing.
-  float range = 0.0F;
-  const int first = layer * kBearingsPerQuarter;
-  for (int b = 0; b < kBearings - first; ++b) {
-    range += evidence.by_code[static_cast<std::size_t>(b)][expected[b + first]];
-  }
-  for (int b = kBearings - first; b < kBearings; ++b) {
-    range += evidence.by_code[static_cast<std::size_t>(b)][expected[b + first - kBearings]];
-  }
-  return static_cast<double>(range);
-}
-
-double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
-  const std::ptrdiff_t at = field_.index_of(cell_of(cell));
-  float hits = 0.0F;
-  for (const std::ptrdiff_t offset : evidence.hits) {
-    hits += field_.log_hit(at + offset);
-  }
-  float frees = 0.0F;
-  for (const std::ptrdiff_t offset : evidence.frees) {
-    frees += field_.occupied(at + offset);
-  }
-  return range_log_likelihood(evidence, layer, cell) +
-         params_.field_weight * static_cast<double>(hits) /
-             std::max<double>(1.0, static_cast<double>(evidence.hits.size())) -
-         params_.free_weight * static_cast<double>(frees) /
-             std::max<double>(1.0, static_cast<double>(evidence.frees.size()));
-}
-
-bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news) {
-  std::vector<RayProfile> rays;  // in the axes of each turn
-  for (int j = 0; j < turns(); ++j) {
-    rays.push_back(cast_rays(seen, yaw_rad + turn_of(j), params_.reach_m));
-  }
-  // Logs first: only their differences matter, so the greatest becomes 1.
-  double greatest = -std::numeric_limits<double>::infinity();
-  double fit = 0.0;
-  std::vector<std::array<std::vector<float>, 4>> logs(sheets_.size());
-  for (std::size_t s = 0; s < sheets_.size(); ++s) {
-    for (int layer = 0; layer < 4; ++layer) {
-      const auto& support = sheets_[s].support[static_cast<std::size_t>(layer)];
-      if (support.empty()) {
-        continue;
-      }
-      const Evidence look =
-          evidence(rays[s % static_cast<std::size_t>(turns())], sheets_[s], layer);
-      std::vector<float>& log = logs[s][static_cast<std::size_t>(layer)];
-      log.reserve(support.size());
-      for (const std::uint32_t i : support) {
-        const double rim = map_.is_free(cell_of(i)) ? 0.0 : std::log(params_.rim_penalty + 1e-9);
-        const double value =
-            news * (log_likelihood(look, layer, i) + rim) +
-            std::log(static_cast<double>(sheets_[s].weight[static_cast<std::size_t>(layer)][i]));
-        log.push_back(static_cast<float>(value));
-        if (value > greatest) {
-          greatest = value;
-          fit = range_log_likelihood(look, layer, i) / std::max(1e-9, params_.range_weight);
-        }
-      }
-    }
-  }
-  if (!std::isfinite(greatest)) {
-    return false;
-  }
-  double total = 0.0;
-  for (std::size_t s = 0; s < sheets_.size(); ++s) {
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      auto& support = sheets_[s].support[layer];
-      auto& weight = sheets_[s].weight[layer];
-      std::size_t kept = 0;
-      for (std::size_t j = 0; j < support.size(); ++j) {
-        const std::uint32_t i = support[j];
-        const float w = std::exp(logs[s][layer][j] - static_cast<float>(greatest));
-        weight[i] = w > kLeastShare ? w : 0.0F;
-        if (w > kLeastShare) {
-          support[kept++] = i;
-          total += static_cast<double>(w);
-        }
-      }
-      support.resize(kept);
-    }
-  }
-  normalise(total);
-  fit_ = has_fit_ ? fit_ + std::min(1.0, kFitGain * news) * (fit - fit_) : fit;
-  has_fit_ = true;
-  return true;
+  // Half an index keeps the product off whole numbers: nothing is rounded over one.
+  const int row = static_cast<int>((padded_index + 0.5) * per_stride_);
+  return {static_cast<int>(padded_index) - row * stride_ - 1, row - 1};
 }
 
 void ScaleFilter::normalise(double total) {

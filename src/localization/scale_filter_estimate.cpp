@@ -118,7 +118,8 @@ Localization ScaleFilter::localization() const {
   return {belief_,         estimate_,
           position_cells_, grid_yaw_rad_,
           confidence_,     confidence_ >= converged_confidence_,
-          scale_,          compass_.axes_yaw_rad()};
+          scale_,          compass_.axes_yaw_rad(),
+          &shown_};
 }
 
 }  // namespace cmn

@@ -9,11 +9,15 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 namespace cmn {
 namespace {
 
 constexpr std::size_t kMostHypotheses = 100;
+/// One state of the belief in so many possible is few.
+constexpr std::size_t kSparse = 8;
 constexpr double kLeastShare = 0.02;  ///< of the best hypothesis; less is left out
 /// The way there is dearer than the cost-to-go counts (turns, nearness): progress must still pay.
 constexpr double kGreed = 2.0;
@@ -85,22 +89,44 @@ void BeliefPolicy::update_cost_to_go(const Situation& situation) {
   }
 }
 
-std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) const {
+std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) {
   const Belief& belief = situation.belief;
   std::vector<Estimate> candidates;
   const double least = kLeastShare * situation.estimate.probability;
+  const auto consider = [&](Heading h, Cell c, double weight) {
+    const double probability = belief.factor() * weight;
+    if (probability > least) {
+      candidates.push_back({h, c, probability});
+    }
+  };
+  // Few: only they are looked at, in the order of a pass over all.
+  if (situation.possible != nullptr &&
+      kSparse * situation.possible->size() < situation.map.occupied().size()) {
+    for (const auto& [h, i] : *situation.possible) {
+      const auto stride = static_cast<std::uint32_t>(belief.stride());
+      consider(h, {static_cast<int>(i % stride) - 1, static_cast<int>(i / stride) - 1},
+               belief.layer(h)[i]);
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const Estimate& a, const Estimate& b) {
+      return std::make_tuple(a.heading, a.cell.y, a.cell.x) <
+             std::make_tuple(b.heading, b.cell.y, b.cell.x);
+    });
+    return weighed(situation, std::move(candidates));
+  }
   for (const Heading h : kHeadings) {
     const std::vector<double>& layer = belief.layer(h);
     for (int y = 0; y < belief.height(); ++y) {
       const double* row = layer.data() + belief.padded_index({0, y});
       for (int x = 0; x < belief.width(); ++x) {
-        const double probability = belief.factor() * row[x];
-        if (probability > least) {
-          candidates.push_back({h, {x, y}, probability});
-        }
+        consider(h, {x, y}, row[x]);
       }
     }
   }
+  return weighed(situation, std::move(candidates));
+}
+
+std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::weighed(const Situation& situation,
+                                                            std::vector<Estimate> candidates) {
   if (candidates.size() > kMostHypotheses) {
     std::nth_element(
         candidates.begin(), candidates.begin() + kMostHypotheses, candidates.end(),

@@ -6,6 +6,10 @@
 
 #include "coarse_map_nav/data/belief.hpp"
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 namespace cmn {
 
 /// What localization hands to planning. Refers to the localizer's belief: good until its next step.
@@ -20,6 +24,9 @@ struct Localization {
   double scale = 1.0;  ///< nominal map metres a metre, as far as it is estimated
   /// Yaw of the axes that the robot keeps to, in the frame of the odometry.
   double axes_yaw_rad = 0.0;
+  /// All states of the belief that are not 0, in no order, each with its index in the padded layer;
+  /// null where the localizer does not keep them.
+  const std::vector<std::pair<Heading, std::uint32_t>>* possible = nullptr;
 };
 
 }  // namespace cmn

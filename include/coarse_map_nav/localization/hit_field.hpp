@@ -31,6 +31,10 @@ class HitField {
   float log_hit(std::ptrdiff_t i) const { return log_hit_[static_cast<std::size_t>(i)]; }
   /// 0 or 1; all outside of the drawing is occupied.
   float occupied(std::ptrdiff_t i) const { return occupied_[static_cast<std::size_t>(i)]; }
+  /// The same for the cells from `i` on. As many as the border is wide may be read past any place
+  /// that an offset leads to.
+  const float* log_hits_from(std::ptrdiff_t i) const { return log_hit_.data() + i; }
+  const float* occupied_from(std::ptrdiff_t i) const { return occupied_.data() + i; }
 
  private:
   int margin_ = 0;  ///< [cells]

@@ -87,7 +87,12 @@ class ScaleFilter : public Localizer {
   /// Weighs all cells; false when nothing is left. `yaw_rad`: of the robot, in the walls' axes.
   bool weigh(const LocalOccupancy& seen, double yaw_rad, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
+  /// Of what a look says of one cell; `is_free`: the cell, where it is not at the rim.
+  double together(const Evidence& evidence, float range, float hits, float frees,
+                  bool is_free) const;
   double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
+  /// The same for all cells that hold a weight, into logs_.
+  void measure_rows(const Evidence& evidence, int layer, const std::vector<float>& weight);
   double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   void normalise(double total);
   void summarise();
@@ -112,11 +117,14 @@ class ScaleFilter : public Localizer {
   RangeTable table_;
   HitField field_;
   int stride_ = 0;  ///< of the padded layers
+  double per_stride_ = 0.0;
   /// Log likelihood of a ray by the error of its coded range, from -255 on.
   std::vector<float> log_of_hit_;
   std::vector<float> log_of_free_;
+  double log_of_rim_ = 0.0;
   std::vector<Sheet> sheets_;  ///< all turns of the first scale, of the second, ...
   std::vector<float> scratch_;
+  std::vector<double> logs_;
   std::vector<std::uint32_t> scratch_support_;
   WallCompass compass_;
   std::optional<Point2> p_odom_last_;

@@ -39,7 +39,10 @@ class BeliefPolicy : public Policy {
     double weight;
   };
   void update_cost_to_go(const Situation& situation);
-  std::vector<Hypothesis> hypotheses(const Situation& situation) const;
+  static std::vector<Hypothesis> hypotheses(const Situation& situation);
+  /// The likeliest of the candidates, all together 1.
+  static std::vector<Hypothesis> weighed(const Situation& situation,
+                                         std::vector<Estimate> candidates);
   /// The state of the lattice with the least expected cost; 0 when that is to stay.
   std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
   /// The goal would lead through a gap that the lattice does not fit through: closes it.

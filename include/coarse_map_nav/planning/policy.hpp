@@ -9,10 +9,13 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace cmn {
 
@@ -35,6 +38,7 @@ struct Situation {
   double scale = 1.0;             ///< nominal map metres a metre
   double axes_yaw_rad = 0.0;      ///< see Localization
   const LocalOccupancy* local_map = nullptr;  ///< what is seen farther around, where it is known
+  const std::vector<std::pair<Heading, std::uint32_t>>* possible = nullptr;  ///< see Localization
 };
 
 /// Chooses one action at a time. May remember what it did; `rng` is its only source of chance.
