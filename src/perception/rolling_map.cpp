@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/rolling_map.hpp"
 
+#include "coarse_map_nav/data/whole_number.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,15 +17,25 @@ constexpr float kForgotten = 0.05F;
 int wrapped(int value, int size) { return ((value % size) + size) % size; }
 
 Cell cell_at(Point2 p, double resolution) {
-  return {static_cast<int>(std::floor(p.x / resolution)),
-          static_cast<int>(std::floor(p.y / resolution))};
+  return {whole_below(p.x / resolution), whole_below(p.y / resolution)};
 }
+
+/// T * point as Pose2 has it, with the sine and cosine worked out once.
+class Transform {
+ public:
+  explicit Transform(const Pose2& T)
+      : at_{T.position()}, c_{std::cos(T.yaw)}, s_{std::sin(T.yaw)} {}
+  Point2 operator()(Point2 p) const {
+    return at_ + Point2{c_ * p.x - s_ * p.y, s_ * p.x + c_ * p.y};
+  }
+
+ private:
+  Point2 at_;
+  double c_;
+  double s_;
+};
 
 }  // namespace
-
-RollingMap::Known& RollingMap::at(Cell c) {
-  return known_({wrapped(c.x, known_.width()), wrapped(c.y, known_.height())});
-}
 
 void RollingMap::forget() { known_ = {}; }
 
@@ -73,21 +85,24 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
   last_ = T_odom_robot.position();
 
   const double half = 0.5 * look.size;
-  const Pose2 T_robot_odom = inverse(T_odom_robot);
+  const Transform to_robot{inverse(T_odom_robot)};
   const int reach = window / 2;
   for (int dy = -reach; dy < reach; ++dy) {
+    const int row = wrapped(middle_.y + dy, window);
+    int column = wrapped(middle_.x - reach - 1, window);
     for (int dx = -reach; dx < reach; ++dx) {
+      column = column + 1 == window ? 0 : column + 1;
       const Cell c = middle_ + Cell{dx, dy};
-      const Point2 p = T_robot_odom * (resolution_ * middle_of(c));
-      const int ix = static_cast<int>(std::floor(p.x / resolution_ + half));
-      const int iy = static_cast<int>(std::floor(p.y / resolution_ + half));
+      const Point2 p = to_robot(resolution_ * middle_of(c));
+      const int ix = whole_below(p.x / resolution_ + half);
+      const int iy = whole_below(p.y / resolution_ + half);
       if (ix < 0 || iy < 0 || ix >= look.size || iy >= look.size) {
         continue;
       }
       const std::size_t i = look.index_of(ix, iy);
       const float news = look.confidence[i];
       if (news > 0.0F) {
-        Known& known = at(c);
+        Known& known = known_({column, row});
         known.occupancy = (known.occupancy * known.confidence + look.occupancy[i] * news) /
                           (known.confidence + news);
         known.confidence =
@@ -96,13 +111,19 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
     }
   }
 
+  const Transform to_odom{T_odom_robot};
+  const int corner_x = wrapped(middle_.x - reach, window);
+  const int corner_y = wrapped(middle_.y - reach, window);
   LocalOccupancy all = look;
   for (int iy = 0; iy < look.size; ++iy) {
     for (int ix = 0; ix < look.size; ++ix) {
       const std::size_t i = look.index_of(ix, iy);
-      const Point2 p =
-          T_odom_robot * Point2{(ix + 0.5 - half) * resolution_, (iy + 0.5 - half) * resolution_};
-      const Known& known = at(cell_at(p, resolution_));
+      const Cell c = cell_at(
+          to_odom({(ix + 0.5 - half) * resolution_, (iy + 0.5 - half) * resolution_}), resolution_);
+      // Within the window, so that no division is needed to wrap it.
+      const int x = corner_x + c.x - (middle_.x - reach);
+      const int y = corner_y + c.y - (middle_.y - reach);
+      const Known& known = known_({x < window ? x : x - window, y < window ? y : y - window});
       if (known.confidence > 0.0F) {
         all.occupancy[i] = known.occupancy;
         all.confidence[i] = known.confidence;

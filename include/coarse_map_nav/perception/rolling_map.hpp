@@ -45,7 +45,6 @@ class RollingMap {
     float confidence = 0.0F;
   };
   /// Of cells of the odometry frame; the array is a torus of which each cell is used once.
-  Known& at(Cell c);
   void scroll_to(Cell middle);
 
   RollingMapParams params_;
