@@ -5,7 +5,6 @@
 #include "coarse_map_nav/data/whole_number.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -39,12 +38,9 @@ void RepairedCostToGo::offer(std::uint32_t from, std::int32_t least) const {
   if (cost < least) {
     return;
   }
-  const std::int32_t stride = width_ + 2;
-  const std::array<std::int32_t, 4> steps{1, stride, -1, -stride};  // in the order of kHeadings
   std::vector<std::uint32_t>& bucket = buckets_[static_cast<std::size_t>(cost) % buckets_.size()];
   for (const Heading h : kHeadings) {
-    const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(from) +
-                                              steps[static_cast<std::size_t>(index(h))]);
+    const std::uint32_t i = neighbour(from, h);
     Part& part = parts_[i];
     if (cost < part.cost) {
       part.cost = cost;
@@ -100,15 +96,28 @@ void RepairedCostToGo::go_back_to(std::int32_t cost) {
   }
 }
 
+bool RepairedCostToGo::matters(std::uint32_t changed, std::uint16_t price_before) const {
+  const Part& here = parts_[changed];
+  return std::any_of(kHeadings.begin(), kHeadings.end(), [&](Heading h) {
+    const Part& beside = parts_[neighbour(changed, h)];
+    const bool comes_through = beside.towards == turned(h, 2) && beside.cost > here.cost;
+    return here.price < price_before ? here.cost + here.price <= beside.cost
+                                     : here.price > price_before && comes_through;
+  });
+}
+
 void RepairedCostToGo::change(const RepairedMap& map, const std::vector<Cell>& parts) {
-  std::int32_t nearest = searched_;
+  std::int32_t nearest = kUnknown;
   for (const Cell c : parts) {
-    Part& part = parts_[index_of(c)];
-    part.price = static_cast<std::uint16_t>(map.cost(c));
-    nearest = std::min(nearest, part.cost);
+    const auto i = static_cast<std::uint32_t>(index_of(c));
+    const auto before = parts_[i].price;
+    parts_[i].price = static_cast<std::uint16_t>(map.cost(c));
+    if (parts_[i].cost < searched_ && matters(i, before)) {
+      nearest = std::min(nearest, parts_[i].cost + std::min(before, parts_[i].price));
+    }
   }
-  if (nearest < searched_) {
-    go_back_to(nearest);
+  if (nearest != kUnknown) {
+    go_back_to(std::min(nearest, searched_));
   }
 }
 

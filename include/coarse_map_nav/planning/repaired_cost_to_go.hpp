@@ -18,10 +18,10 @@ namespace cmn {
 /// Dijkstra from the goal over the parts of a repaired map, four neighbours each; walls can be
 /// crossed at their price, so there is a way from everywhere.
 ///
-/// The search goes only as far from the goal as it is asked about, and where the map changes it
-/// goes back to the nearest change and on from there: with the goal ahead and changes around the
-/// robot only what lies about as far from the goal as they do is searched again. By Dial's queue;
-/// all results are those of a search of the whole map from the beginning.
+/// The search goes only as far from the goal as it is asked about. Where the map changes so that
+/// cheapest ways do, it goes back to the nearest change and on from there: with the goal ahead and
+/// changes around the robot, only what lies about as far from the goal as they do is searched
+/// again. By Dial's queue; all results are those of a search of the whole map from the beginning.
 class RepairedCostToGo {
  public:
   RepairedCostToGo() = default;
@@ -52,10 +52,17 @@ class RepairedCostToGo {
     return static_cast<std::size_t>(c.y + 1) * static_cast<std::size_t>(width_ + 2) +
            static_cast<std::size_t>(c.x + 1);
   }
+  std::uint32_t neighbour(std::uint32_t i, Heading h) const {
+    const Cell step = unit_step(h);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(i) + step.y * (width_ + 2) +
+                                      step.x);
+  }
   void offer(std::uint32_t from, std::int32_t least) const;
   /// Until all that costs no more is known.
   void search_to(std::int32_t cost) const;
   void go_back_to(std::int32_t cost);
+  /// A part that was searched has another price: does anything follow?
+  bool matters(std::uint32_t changed, std::uint16_t price_before) const;
 
   Cell goal_;
   int width_ = 0;
