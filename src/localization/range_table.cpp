@@ -76,6 +76,7 @@ RangeTable::RangeTable(const CoarseMap& map, const LogRange& code) {
       }
     }
   }
+  codes_.shrink_to_fit();  // by far the largest table there is
 }
 
 }  // namespace cmn
