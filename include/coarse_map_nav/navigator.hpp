@@ -33,7 +33,9 @@ class Navigator {
         planner_{map, params.planning} {}
 
   Localizer& localizer() { return *localizer_; }
+  const Localizer& localizer() const { return *localizer_; }
   Planner& planner() { return planner_; }
+  const Planner& planner() const { return planner_; }
   const LocalOccupancy& seen() const { return seen_; }
   const LocalOccupancy& local_map() const { return local_map_; }
   /// What the obstacle guard allows, see clear_ahead_m().

@@ -219,7 +219,7 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       const Pose2 T_map_estimate = estimated_pose(at, given.map);
       recorder({robot.truth(), at, T_map_true, T_map_estimate, given.to_world(T_map_estimate),
                 robot.collisions(), given.map, goal.position(), decision, navigator.local_map(),
-                navigator.seen(), robot.T_odom_robot()});
+                navigator.seen(), robot.T_odom_robot(), navigator});
     }
     if (decision.state == NavigationState::kReached) {
       the_judge.hear_reached(robot);

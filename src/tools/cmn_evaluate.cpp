@@ -140,6 +140,18 @@ std::string changes_text(const cmn::ParamTree& changes) {
   return text.str();
 }
 
+/// Those to be explained. Throws std::runtime_error when one is no number of an action.
+std::vector<int> actions_of(const po::variables_map& given) {
+  std::vector<int> actions;
+  for (const std::string& text : list_of(given, "explain")) {
+    if (text.size() > 6 || text.find_first_not_of("0123456789") != std::string::npos) {
+      throw std::runtime_error("--explain " + text + " is not the number of an action");
+    }
+    actions.push_back(std::stoi(text));
+  }
+  return actions;
+}
+
 int run(int argc, char** argv) {
   po::options_description options{
       "cmn_evaluate --world W.yaml [--world ...] --task CL --mpp 0.4 --method ours,cmn --out "
@@ -172,6 +184,9 @@ int run(int argc, char** argv) {
   add_option("resume", po::bool_switch(), "go on with what lies in --out");
   add_option("replay", po::value<std::vector<std::string>>()->multitoken()->composing(),
              "run only these episodes again, as CL-0.40-intel-17-ours, and draw them");
+  add_option("explain", po::value<std::vector<std::string>>()->multitoken()->composing(),
+             "with --replay: before these actions, counted from 0, take apart what each part of "
+             "the method makes of what is seen; several with commas");
   add_option("gallery", po::value<int>(),
              "run only so many of the worst episodes in --out again, of each --method, and draw "
              "them with their causes");
@@ -218,8 +233,12 @@ int run(int argc, char** argv) {
                        : std::vector<std::string>{methods_replayed.begin(), methods_replayed.end()},
       variants_for(given, plan.config), plan.config.string());
   if (!replayed.empty()) {
-    cmn::replay(plan, replayed);
+    cmn::replay(plan, replayed,
+                given.count("explain") != 0 ? actions_of(given) : std::vector<int>{});
     return EXIT_SUCCESS;
+  }
+  if (given.count("explain") != 0) {
+    throw std::runtime_error("--explain goes with --replay");
   }
   if (given.count("gallery") != 0) {
     cmn::leave_gallery(plan, static_cast<std::size_t>(positive(given, "gallery")));

@@ -18,6 +18,8 @@
 
 namespace cmn {
 
+class Navigator;
+
 /// A world that episodes are played in, made ready once.
 struct Scene {
   Scene(std::string scene_name, CoarseMap world_map, std::optional<CoarseMap> wall_map,
@@ -49,6 +51,7 @@ struct EpisodeMoment {
   const LocalOccupancy& local_map;
   const LocalOccupancy& seen;  ///< by the localizer
   Pose2 T_odom_robot;
+  const Navigator& navigator;  ///< that decided
 };
 using EpisodeRecorder = std::function<void(const EpisodeMoment&)>;
 

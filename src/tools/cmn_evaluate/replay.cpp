@@ -3,11 +3,13 @@
 #include "replay.hpp"
 
 #include "coarse_map_nav/evaluation/episode_gallery.hpp"
+#include "coarse_map_nav/evaluation/explanation.hpp"
 #include "coarse_map_nav/evaluation/gif.hpp"
 #include "coarse_map_nav/evaluation/run_picture.hpp"
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -21,8 +23,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kFilmFrames = 120;
 
-EpisodeRecorder recorder_of(Recording& recording) {
-  return [&recording](const EpisodeMoment& moment) {
+/// Of the episode that is replayed.
+using MomentPainter = std::function<void(const EpisodeMoment& moment, int action)>;
+
+EpisodeRecorder recorder_of(Recording& recording, const MomentPainter& paint) {
+  return [&recording, &paint](const EpisodeMoment& moment) {
+    paint(moment, static_cast<int>(recording.trace.steps.size()));
     const Localization& at = moment.localization;
     const auto action = static_cast<double>(recording.trace.steps.size());
     recording.trace.steps.push_back(
@@ -86,7 +92,23 @@ void write_picture(const fs::path& path, const cv::Mat& picture) {
   std::cout << path.string() << "\n";
 }
 
-Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key) {
+namespace {
+
+/// Writes the sheet and the panels of a moment.
+void write_explanation(const fs::path& path, const EpisodeMoment& moment,
+                       const NavigatorParams& params, double true_scale, const std::string& title) {
+  const std::vector<ExplanationPanel> panels = explain(moment, params, true_scale);
+  write_picture(path.string() + ".png", explanation_sheet(panels, title, moment.decision.text));
+  fs::create_directories(path);
+  for (const ExplanationPanel& panel : panels) {
+    write_picture(path / (panel.name + ".png"), panel.picture);
+  }
+}
+
+}  // namespace
+
+Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
+                    const std::vector<int>& explained) {
   const Task& task = find_task(key.task);
   const auto method = std::find_if(plan.methods.begin(), plan.methods.end(),
                                    [&](const Method& m) { return m.name == key.method; });
@@ -101,20 +123,34 @@ Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key) {
   recording.trace.converged_confidence = plan.judge.converged_confidence;
   recording.setting.goal_world = ready->route.goal_world;
   recording.setting.time_unit = "actions";
-  recording.trace.row = run_judged_episode(scene, task, ready->drawing, ready->route, *method,
-                                           method_params(*method, task, plan.config.string()),
-                                           plan.judge, key, seconds, recorder_of(recording));
+  const NavigatorParams params = method_params(*method, task, plan.config.string());
+  const MomentPainter paint = [&](const EpisodeMoment& moment, int action) {
+    if (std::find(explained.begin(), explained.end(), action) != explained.end()) {
+      const std::string number = std::to_string(action);
+      write_explanation(plan.out / (file_name_of(key) + "_action_" + number), moment, params,
+                        ready->drawing.scale(), key.id() + ", before action " + number);
+    }
+  };
+  recording.trace.row =
+      run_judged_episode(scene, task, ready->drawing, ready->route, *method, params, plan.judge,
+                         key, seconds, recorder_of(recording, paint));
+  for (const int action : explained) {
+    if (action >= static_cast<int>(recording.trace.steps.size())) {
+      std::cout << key.id() << " ended before action " << action << "\n";
+    }
+  }
   return recording;
 }
 
-void replay(const Plan& plan, const std::vector<std::string>& ids) {
+void replay(const Plan& plan, const std::vector<std::string>& ids,
+            const std::vector<int>& explained) {
   fs::create_directories(plan.out);
   std::map<std::string, std::vector<EpisodeTrace>> traces;  // by the name of the file
   for (const std::string& id : ids) {
     EpisodeKey key = parse_episode_id(id);
     key.seed = episode_seed(plan.seed, key.world, key.index);
     const std::unique_ptr<Scene> scene = read_scene(world_of(plan, key), plan.judge);
-    const Recording recording = run_again(plan, *scene, key);
+    const Recording recording = run_again(plan, *scene, key, explained);
     std::cout << csv_header() << "\n" << csv_line(recording.trace.row) << "\n";
     if (recording.trace.steps.empty()) {
       std::cout << id << " ended before its first step: " << recording.trace.row.end << "\n";

@@ -23,9 +23,10 @@ struct Recording {
   RunRecord record;
 };
 
-/// Runs one episode again; `key` as episode_seed() makes it, its method among the plan's.
-/// Throws std::runtime_error when it has no route.
-Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key);
+/// Runs one episode again; `key` as episode_seed() makes it, its method among the plan's; what
+/// replay() says of the actions `explained`. Throws std::runtime_error when it has no route.
+Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
+                    const std::vector<int>& explained = {});
 
 /// The world of the plan that is called as that of the key. Throws std::runtime_error without one.
 std::string world_of(const Plan& plan, const EpisodeKey& key);
@@ -39,7 +40,10 @@ void write_picture(const std::filesystem::path& path, const cv::Mat& picture);
 /// Runs episodes by their ids and leaves ID.png, ID.gif and, of several methods on one episode,
 /// TASK-MPP-WORLD-INDEX.png in `plan.out`. Of the plan it takes worlds, seed, presets and judge.
 /// Prints each row, and in what it differs from that in episodes.csv there, if any.
+/// Before each of the actions `explained`, counted from 0, ID_action_K.png takes the moment apart,
+/// and the folder of that name holds its panels one by one.
 /// Throws std::runtime_error or std::invalid_argument naming what cannot be done.
-void replay(const Plan& plan, const std::vector<std::string>& ids);
+void replay(const Plan& plan, const std::vector<std::string>& ids,
+            const std::vector<int>& explained);
 
 }  // namespace cmn
