@@ -9,10 +9,21 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include <opencv2/core.hpp>
+
 namespace cmn {
 namespace {
 
 constexpr float kForgotten = 0.05F;
+
+// Alignment: what is searched, and what odometry's word is worth there, in shares of the points.
+constexpr double kTurn_deg = 0.5;
+constexpr double kShift_cells = 0.5;
+constexpr int kShifts = 2;  ///< either way
+constexpr double kPriceOfTurn = 0.01;
+constexpr double kPriceOfShift = 0.2;
+constexpr std::size_t kMostPoints = 400;
+constexpr std::size_t kLeastPoints = 20;
 
 int wrapped(int value, int size) { return ((value % size) + size) % size; }
 
@@ -35,9 +46,91 @@ class Transform {
   double s_;
 };
 
+/// At most kMostPoints, evenly thinned.
+std::vector<Point2> thinned(std::vector<Point2> points) {
+  const std::size_t every = points.size() / kMostPoints + 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); i += every) {
+    points[kept++] = points[i];
+  }
+  points.resize(kept);
+  return points;
+}
+
 }  // namespace
 
 void RollingMap::forget() { known_ = {}; }
+
+cv::Mat RollingMap::surfaces() const {
+  const int size = known_.width();
+  cv::Mat image(size, size, CV_32F);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Cell c = middle_ + Cell{x - size / 2, y - size / 2};
+      const Known& known = known_({wrapped(c.x, size), wrapped(c.y, size)});
+      image.at<float>(y, x) = known.confidence > 0.0F ? known.occupancy - 0.5F : 0.0F;
+    }
+  }
+  return image;
+}
+
+Pose2 RollingMap::aligned(const LocalOccupancy& look, const Pose2& T_map_robot) const {
+  const std::vector<Point2> surface = thinned(surface_of(look));
+  if (surface.size() < kLeastPoints) {
+    return T_map_robot;
+  }
+  const cv::Mat known = surfaces();
+  const Point2 corner = middle_of(middle_ - Cell{known.cols / 2, known.rows / 2});
+  // Mean of what is known where the surface would lie, between the middles of cells.
+  const auto fit = [&](const Pose2& pose) {
+    const Transform to_map{pose};
+    double sum = 0.0;
+    for (const Point2 p_robot : surface) {
+      const Point2 p = (1.0 / resolution_) * to_map(p_robot) - corner;
+      const int x = whole_below(p.x);
+      const int y = whole_below(p.y);
+      if (x >= 0 && y >= 0 && x + 1 < known.cols && y + 1 < known.rows) {
+        const double u = p.x - x;
+        const double v = p.y - y;
+        const float* low = known.ptr<float>(y) + x;
+        const float* high = known.ptr<float>(y + 1) + x;
+        sum += (1.0 - v) *
+                   ((1.0 - u) * static_cast<double>(low[0]) + u * static_cast<double>(low[1])) +
+               v * ((1.0 - u) * static_cast<double>(high[0]) + u * static_cast<double>(high[1]));
+      }
+    }
+    return sum / static_cast<double>(surface.size());
+  };
+  Pose2 best = T_map_robot;
+  double best_fit = fit(best);
+  const auto consider = [&](const Pose2& pose) {
+    const double turn_deg = std::abs(wrap_angle(pose.yaw - T_map_robot.yaw)) * 180.0 / kPi;
+    const double shift = norm(pose.position() - T_map_robot.position()) / resolution_;
+    const double value =
+        fit(pose) - kPriceOfTurn * turn_deg / params_.align_deg - kPriceOfShift * shift;
+    if (value > best_fit) {
+      best_fit = value;
+      best = pose;
+    }
+  };
+  // The turn, which moves most, then the place; then both once more and finer.
+  for (const double share : {1.0, 0.5}) {
+    const double step_rad = share * kTurn_deg * kPi / 180.0;
+    const int turns = share < 1.0 ? 3 : static_cast<int>(params_.align_deg / kTurn_deg);
+    const Pose2 before = best;
+    for (int i = -turns; i <= turns; ++i) {
+      consider({before.x, before.y, before.yaw + i * step_rad});
+    }
+    const Pose2 at = best;
+    const double step_m = share * kShift_cells * resolution_;
+    for (int i = -kShifts; i <= kShifts; ++i) {
+      for (int j = -kShifts; j <= kShifts; ++j) {
+        consider({at.x + i * step_m, at.y + j * step_m, at.yaw});
+      }
+    }
+  }
+  return best;
+}
 
 void RollingMap::scroll_to(Cell middle) {
   const int size = known_.width();
@@ -66,10 +159,19 @@ void RollingMap::scroll_to(Cell middle) {
 LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_robot) {
   // The square of the look fits into the window however it is turned.
   const int window = static_cast<int>(std::ceil(std::sqrt(2.0) * look.size)) + 2;
-  const Cell here = cell_at(T_odom_robot.position(), look.resolution);
-  if (known_.width() != window || resolution_ != look.resolution) {
+  const bool is_first = known_.width() != window || resolution_ != look.resolution;
+  if (is_first) {
     known_ = Grid<Known>{window, window};
     resolution_ = look.resolution;
+    T_map_odom_ = {};
+  }
+  Pose2 T_map_robot = T_map_odom_ * T_odom_robot;
+  if (!is_first && params_.align_deg > 0.0) {
+    T_map_robot = aligned(look, T_map_robot);
+    T_map_odom_ = T_map_robot * inverse(T_odom_robot);
+  }
+  const Cell here = cell_at(T_map_robot.position(), resolution_);
+  if (is_first) {
     middle_ = here;
   } else {
     scroll_to(here);
@@ -85,7 +187,7 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
   last_ = T_odom_robot.position();
 
   const double half = 0.5 * look.size;
-  const Transform to_robot{inverse(T_odom_robot)};
+  const Transform to_robot{inverse(T_map_robot)};
   const int reach = window / 2;
   for (int dy = -reach; dy < reach; ++dy) {
     const int row = wrapped(middle_.y + dy, window);
@@ -111,7 +213,7 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
     }
   }
 
-  const Transform to_odom{T_odom_robot};
+  const Transform to_map{T_map_robot};
   const int corner_x = wrapped(middle_.x - reach, window);
   const int corner_y = wrapped(middle_.y - reach, window);
   LocalOccupancy all = look;
@@ -119,7 +221,7 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
     for (int ix = 0; ix < look.size; ++ix) {
       const std::size_t i = look.index_of(ix, iy);
       const Cell c = cell_at(
-          to_odom({(ix + 0.5 - half) * resolution_, (iy + 0.5 - half) * resolution_}), resolution_);
+          to_map({(ix + 0.5 - half) * resolution_, (iy + 0.5 - half) * resolution_}), resolution_);
       // Within the window, so that no division is needed to wrap it.
       const int x = corner_x + c.x - (middle_.x - reach);
       const int y = corner_y + c.y - (middle_.y - reach);

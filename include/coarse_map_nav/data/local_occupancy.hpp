@@ -46,4 +46,8 @@ struct LocalOccupancy {
   double side_m() const { return size * resolution; }
 };
 
+/// Where ground that was seen to be free ends at something: the middles of occupied cells beside a
+/// free one, in the robot's frame [m].
+std::vector<Point2> surface_of(const LocalOccupancy& seen);
+
 }  // namespace cmn

@@ -9,17 +9,24 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 
+#include <opencv2/core.hpp>
+
 namespace cmn {
 
 struct RollingMapParams {
   double most_looks = 0.5;
   double memory_m = 6.0;
+  double align_deg = 5.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("most_looks", self.most_looks, Between{0.1, 100.0},
           "[looks] rolling map: what was seen before never counts more than this");
     visit("memory_m", self.memory_m, Between{0.1, 1000.0},
           "[m] rolling map: the way after which what was seen counts 1/e");
+    visit(
+        "align_deg", self.align_deg, Between{0.0, 20.0},
+        "[deg] rolling map: a look is turned by up to this, and moved by a cell, to where it fits "
+        "what was seen before; 0: as odometry says");
   }
 };
 
@@ -27,9 +34,11 @@ struct RollingMapParams {
 /// f and confidence c are carried along by egomotion, and a look (f', c') is folded in by f <- (f c
 /// + f' c') / (c + c'), c <- c + c'.
 ///
-/// Two differences (ours): the grid keeps its place in the odometry and scrolls with the robot,
-/// since warping it anew at each step blurs walls away; and confidence is limited and fades with
-/// the way driven, since odometry drifts and people move.
+/// Three differences (ours): the grid keeps its place in a frame of its own and scrolls with the
+/// robot, since warping it anew at each step blurs walls away; confidence is limited and fades with
+/// the way driven, since people move; and each look is aligned with what was seen before
+/// (correlative scan matching, Olson 2009, over a few degrees and cells), since odometry drifts: of
+/// a robot that turns often, it would draw arcs for walls.
 class RollingMap {
  public:
   explicit RollingMap(const RollingMapParams& params) : params_{params} {}
@@ -44,14 +53,18 @@ class RollingMap {
     float occupancy = 0.5F;
     float confidence = 0.0F;
   };
-  /// Of cells of the odometry frame; the array is a torus of which each cell is used once.
+  /// Of the window: above 0 where something stands, below where it is free, 0 where unknown.
+  cv::Mat surfaces() const;
+  /// The pose near `T_map_robot` at which the look fits best.
+  Pose2 aligned(const LocalOccupancy& look, const Pose2& T_map_robot) const;
   void scroll_to(Cell middle);
 
   RollingMapParams params_;
   Grid<Known> known_;
   double resolution_ = 0.0;
-  Cell middle_;  ///< cell of the odometry frame that the window is about
-  Point2 last_;
+  Pose2 T_map_odom_;  ///< what odometry has drifted since the beginning
+  Cell middle_;       ///< cell of the map's frame that the window is about
+  Point2 last_;       ///< where the robot was
 };
 
 }  // namespace cmn

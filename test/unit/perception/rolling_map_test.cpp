@@ -128,6 +128,58 @@ TEST(RollingMap, WhatIsNotSeenAgainFadesWithTheWay) {
   EXPECT_EQ(last, 0.0F);
 }
 
+/// What is seen in a room of 5 x 4 m from a pose in it: free up to its walls, which are 0.2 m
+/// thick.
+LocalOccupancy look_at_room(const Pose2& T_room_robot) {
+  LocalOccupancy look = nothing();
+  for (int iy = 0; iy < kSize; ++iy) {
+    for (int ix = 0; ix < kSize; ++ix) {
+      const Point2 p = T_room_robot * place_of(ix, iy);
+      const double depth = std::min({p.x, 5.0 - p.x, p.y, 4.0 - p.y});
+      const std::size_t i = look.index_of(ix, iy);
+      look.occupancy[i] = depth > 0.0 ? 0.0F : 1.0F;
+      look.confidence[i] = depth > -0.2 ? 1.0F : 0.0F;
+    }
+  }
+  return look;
+}
+
+/// How much of what is known to be occupied lies farther than 0.2 m from the room's walls after a
+/// look to either side and many turns on the spot, of which odometry misses some degrees each.
+double share_of_ghosts(double align_deg) {
+  RollingMapParams params = lasting();
+  params.most_looks = 1.0;
+  params.align_deg = align_deg;
+  RollingMap map{params};
+  Pose2 T_room_robot{2.2, 1.7, 0.0};
+  Pose2 T_odom_robot{-7.0, 3.0, 1.0};
+  LocalOccupancy known;
+  for (int i = 0; i < 12; ++i) {
+    LocalOccupancy look = look_at_room(T_room_robot);
+    for (int iy = 0; iy < kSize; ++iy) {  // sees what is ahead
+      for (int ix = 0; ix < kSize / 2 - 5; ++ix) {
+        look.confidence[look.index_of(ix, iy)] = 0.0F;
+      }
+    }
+    known = map.fuse(look, T_odom_robot);
+    T_room_robot.yaw += kPi / 2.0;
+    T_odom_robot.yaw += kPi / 2.0 - 3.0 * kPi / 180.0;
+  }
+  T_room_robot.yaw -= kPi / 2.0;
+  double ghosts = 0.0;
+  const std::vector<Point2> found = occupied(known);
+  for (const Point2 p_robot : found) {
+    const Point2 p = T_room_robot * p_robot;
+    ghosts += std::abs(std::min({p.x, 5.0 - p.x, p.y, 4.0 - p.y}) + 0.1) > 0.3;
+  }
+  return ghosts / static_cast<double>(found.size());
+}
+
+TEST(RollingMap, ItsWallsStayWhereTheyAreAlthoughOdometryTurnsAway) {
+  EXPECT_GT(share_of_ghosts(0.0), 0.05) << "as odometry says";
+  EXPECT_EQ(share_of_ghosts(RollingMapParams{}.align_deg), 0.0);
+}
+
 TEST(RollingMap, WhatLeavesTheWindowIsGone) {
   for (const double step_m : {0.1, 0.35, -0.7, 9.0, -30.0}) {
     for (const bool is_along_x : {true, false}) {
