@@ -29,6 +29,26 @@ bool is_usable(float range_m, const RangeScan& scan) {
   return range_m >= static_cast<float>(scan.range_min_m) && range_m >= 0.0F;
 }
 
+/// How far a beam that met nothing was free. Between two that hit it was lost, and is no slit in a
+/// wall: as far as the nearer of them. (Where beams are far apart it may well be a door.)
+float free_range_m(const RangeScan& scan, std::size_t beam) {
+  constexpr double kDense_rad = 2.0 * kPi / 180.0;
+  const std::size_t beams = scan.ranges_m.size();
+  const auto range_max_m = static_cast<float>(scan.range_max_m);
+  const double step_rad = std::abs(scan.angle_increment_rad);
+  const bool is_closed = step_rad * static_cast<double>(beams) > 2.0 * kPi - kDense_rad;
+  const bool has_neighbours = beams > 2 && (is_closed || (beam > 0 && beam + 1 < beams));
+  if (!has_neighbours || step_rad > kDense_rad) {
+    return range_max_m;
+  }
+  const float before_m = scan.ranges_m[(beam + beams - 1) % beams];
+  const float after_m = scan.ranges_m[(beam + 1) % beams];
+  const auto has_hit = [&](float range_m) {
+    return is_usable(range_m, scan) && range_m <= range_max_m;
+  };
+  return has_hit(before_m) && has_hit(after_m) ? std::min(before_m, after_m) : range_max_m;
+}
+
 }  // namespace
 
 void RangeProjector::tabulate(const RangeScan& scan) {
@@ -77,12 +97,13 @@ LocalOccupancy RangeProjector::project(const RangeScan& scan, BeamCount* count) 
   std::vector<Beam> beams;
   beams.reserve(scan.ranges_m.size() + 1);
   BeamCount seen;
-  for (const float range_m : scan.ranges_m) {
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const float range_m = scan.ranges_m[i];
     if (!is_usable(range_m, scan)) {
       beams.push_back({kNan, kNan, 0.5F});
       ++seen.unusable;
     } else if (range_m > range_max_m) {
-      beams.push_back({range_max_m, -kInfinity, 0.5F});
+      beams.push_back({free_range_m(scan, i), -kInfinity, 0.5F});
       ++seen.used;
     } else {
       beams.push_back({range_m, range_m + wall_m, 1.0F});

@@ -53,6 +53,8 @@ struct BeamCount {
 /// for one cell's diagonal, both with confidence 1. What lies beyond is unseen: confidence 0 and
 /// occupancy 1, Robb's "everything beyond is occupied"; who trusts only what was seen looks at the
 /// confidence. Bearings outside the field of view and unusable beams leave 0.5 with confidence 0.
+/// In a dense scan, a lone beam that met nothing between two that hit is taken to be free only as
+/// far as they were: most lidars report a lost echo so.
 /// Each cell's bearing and distance are tabulated for the sensor at hand, so that a scan costs one
 /// look-up a cell.
 class RangeProjector {

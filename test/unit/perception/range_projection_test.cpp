@@ -56,6 +56,26 @@ TEST(RangeProjector, ABeamThatMetNothingIsFreeAllTheWay) {
   }
 }
 
+TEST(RangeProjector, ALostEchoIsNoSlitInAWall) {
+  ProjectionParams params;
+  params.side_m = 6.4;
+  RangeProjector projector{params};
+  RangeScan scan = full_circle(2.0F);
+  scan.ranges_m[180] = kInf;  // straight ahead
+  LocalOccupancy local = projector.project(scan);
+  EXPECT_EQ(local.occupancy[at(local, 1.9, 0.0)], 0.0F);
+  EXPECT_EQ(local.confidence[at(local, 1.9, 0.0)], 1.0F);
+  EXPECT_EQ(local.confidence[at(local, 2.5, 0.0)], 0.0F);
+  // Several in a row are an opening, and so is one of a sparse scan.
+  scan.ranges_m[179] = scan.ranges_m[181] = kInf;
+  local = projector.project(scan);
+  EXPECT_EQ(local.occupancy[at(local, 2.5, 0.0)], 0.0F);
+  EXPECT_EQ(local.confidence[at(local, 2.5, 0.0)], 1.0F);
+  scan = full_circle(2.0F, 36);
+  scan.ranges_m[18] = kInf;
+  EXPECT_EQ(projector.project(scan).confidence[at(local, 2.5, 0.0)], 1.0F);
+}
+
 TEST(RangeProjector, ABeamThatMetNothingSaysNothingBeyondItsReach) {
   RangeProjector projector{ProjectionParams{}};
   RangeScan scan = full_circle(kInf);
