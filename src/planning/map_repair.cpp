@@ -70,9 +70,12 @@ bool RepairedMap::fuse(const LocalOccupancy& local, const ClearanceMap& clearanc
       const Point2 p =
           corner + static_cast<double>(ix) * along_x + static_cast<double>(iy) * along_y;
       Tally& tally = tally_of({whole_below(p.x), whole_below(p.y)});
-      const double clear_m = clearance.at_cell(local.index_of(ix, iy));
-      tally.known += clear_m >= 0.0;
-      tally.drivable += clear_m >= least_clearance_m;
+      const std::size_t i = local.index_of(ix, iy);
+      const bool is_too_near = clearance.is_nearer_than(least_clearance_m, i);
+      const bool was_seen = clearance.at_cell(i) >= 0.0;
+      // Behind a wall, too: one that is seen from one side only would leak.
+      tally.known += was_seen || is_too_near;
+      tally.drivable += was_seen && !is_too_near;
     }
   }
   // A part at the rim of the view is judged by what of it is in view, if that is most of it.
