@@ -10,12 +10,14 @@
 #include "coarse_map_nav/localization/scale_filter.hpp"
 #include "coarse_map_nav/navigator.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
+#include "coarse_map_nav/planning/repaired_cost_to_go.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <optional>
 
 namespace cmn {
 namespace {
@@ -179,9 +181,14 @@ ExplanationPanel lattice_panel(const EpisodeMoment& moment, const PlanningParams
       });
 }
 
+Point2 cells_of(const CoarseMap& map, Point2 p_map) {
+  const Point2 p = inverse(map.T_map_grid()) * p_map;
+  return (1.0 / map.resolution()) * p;
+}
+
 ExplanationPanel repaired_panel(const EpisodeMoment& moment, const RepairedMap& repaired) {
   return panel("repaired_map", "What was learned about the drawing",
-               "green: drawn as a wall, found open; red: drawn free, found blocked",
+               "green: drawn as a wall, found open; red: drawn free, found blocked; blue: the way",
                [&](Canvas& canvas, const cv::Rect2d& area) {
                  const MapView view = view_in(moment.map, area.tl(), area.size());
                  const CoarseMap now = repaired.as_map();
@@ -199,6 +206,17 @@ ExplanationPanel repaired_panel(const EpisodeMoment& moment, const RepairedMap& 
                  }
                  canvas.picture(image, view.area);
                  canvas.frame(view.area, kMapColours.faint_ink, 0.5);
+                 // The way to the goal by what is known now, through the walls if need be.
+                 const RepairedCostToGo cost_to_go{
+                     repaired, repaired.part_of(cells_of(moment.map, moment.goal_map))};
+                 std::vector<cv::Point2d> way;
+                 const double part = view.area.width / now.width();
+                 for (std::optional<Cell> at = repaired.part_of(moment.localization.position_cells);
+                      at; at = cost_to_go.next(*at)) {
+                   const Point2 p = middle_of(*at);
+                   way.emplace_back(view.area.x + p.x * part, view.area.br().y - p.y * part);
+                 }
+                 canvas.polyline(way, kMapColours.estimate, 1.5);
                  draw_goal(canvas, view.at(moment.goal_map), 8.0);
                  draw_robot(canvas, view.at(moment.T_map_true.position()), 8.0,
                             view.turned(moment.T_map_true.yaw));

@@ -122,7 +122,8 @@ void ScaleFilter::reopen() {
       static_cast<double>(sheets_.size()) * 4.0 * static_cast<double>(map_.free_count());
   const double each = params_.reopen_share / std::max(1e-6, 1.0 - params_.reopen_share) / states;
   normalise(1.0 + spread([](Heading, double, Cell) { return 1.0; }, each));
-  has_fit_ = false;
+  compass_.lose();
+  fit_ = 0.0;  // time to find what fits better
 }
 
 void ScaleFilter::reset() {
@@ -172,7 +173,7 @@ void ScaleFilter::normalise(double total) {
 }
 
 Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
-  compass_.look(seen, T_odom_robot.yaw);
+  compass_.look(seen, T_odom_robot);
   const Pose2 T_axes_robot = Pose2{0.0, 0.0, -compass_.axes_yaw_rad()} * T_odom_robot;
   Point2 driven;
   double news = 1.0;
@@ -194,7 +195,7 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
     has_fit_ = false;
     outcome = Correction::kContradiction;
   }
-  if (has_fit_ && fit_ < params_.reopen_fit && confidence_ >= converged_confidence_) {
+  if (has_fit_ && fit_ < params_.reopen_fit) {
     reopen();
     outcome = Correction::kReopened;
   }

@@ -16,8 +16,6 @@ namespace {
 
 /// Of the greatest weight; less is dropped, and with it the work on it.
 constexpr float kLeastShare = 1e-9F;
-/// Share of a whole new look in the running mean of the fit.
-constexpr double kFitGain = 0.3;
 /// Free rays are probed at these shares of their range.
 constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
 /// A layer that holds more than one in so many of the map's cells is weighed row by row.
@@ -215,7 +213,7 @@ bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news)
     }
   }
   normalise(total);
-  fit_ = has_fit_ ? fit_ + std::min(1.0, kFitGain * news) * (fit - fit_) : fit;
+  fit_ = has_fit_ ? fit_ + news * (fit - fit_) : fit;
   has_fit_ = true;
   return true;
 }

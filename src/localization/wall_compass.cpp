@@ -9,13 +9,12 @@
 namespace cmn {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-/// Sought to either side, a degree at a time [deg]; the walls' own quarter turns are 90 apart.
-constexpr int kNarrowest = 10;
-constexpr int kWidest = 30;
-/// Half of what is sought, in standard deviations of what is expected.
-constexpr double kSigmas = 3.0;
+constexpr double kDegree = kPi / 180.0;  ///< also the step of the search
+constexpr double kWidest_deg = 10.0;     ///< of it, at least, to either side
 constexpr std::size_t kFewestHits = 60;
+constexpr double kNeverSurer_deg = 0.2;
+
+double squared(double value) { return value * value; }
 
 }  // namespace
 
@@ -37,64 +36,55 @@ double WallCompass::sharpness(const std::vector<Point2>& hits, double yaw_rad) {
   return sum;
 }
 
-void WallCompass::look(const LocalOccupancy& seen, double yaw_rad) {
+void WallCompass::lose() { sigma_deg_ = params_.lost_sigma_deg; }
+
+void WallCompass::look(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
   if (!params_.enabled) {
     return;
   }
-  const double turn_deg = wrap_angle(yaw_rad - last_yaw_rad_.value_or(yaw_rad)) / kDegree;
-  last_yaw_rad_ = yaw_rad;
-  const double lost = params_.turn_share * turn_deg / params_.look_sigma_deg;
-  variance_ += lost * lost;
-  // The near side of what is occupied: cells beside one that was seen to be free.
-  std::vector<Point2> hits;
-  const auto is_free = [&](int ix, int iy) {
-    const std::size_t i = seen.index_of(ix, iy);
-    return seen.confidence[i] > 0.0F && seen.occupancy[i] <= 0.5F;
-  };
-  for (int iy = 1; iy + 1 < seen.size; ++iy) {
-    for (int ix = 1; ix + 1 < seen.size; ++ix) {
-      const std::size_t i = seen.index_of(ix, iy);
-      if (seen.confidence[i] > 0.0F && seen.occupancy[i] > 0.5F &&
-          (is_free(ix - 1, iy) || is_free(ix + 1, iy) || is_free(ix, iy - 1) ||
-           is_free(ix, iy + 1))) {
-        hits.push_back({(ix + 0.5 - 0.5 * seen.size) * seen.resolution,
-                        (iy + 0.5 - 0.5 * seen.size) * seen.resolution});
-      }
-    }
+  if (T_odom_last_) {
+    const double turned_rad = std::abs(wrap_angle(T_odom_robot.yaw - T_odom_last_->yaw));
+    const double driven_m = norm(T_odom_robot.position() - T_odom_last_->position());
+    sigma_deg_ = std::sqrt(squared(sigma_deg_) +
+                           squared(params_.drift_per_turn_deg) * turned_rad / (kPi / 2.0) +
+                           squared(params_.drift_per_m_deg) * driven_m);
   }
+  T_odom_last_ = T_odom_robot;
+  const std::vector<Point2> hits = surface_of(seen);
   if (hits.size() < kFewestHits) {
     return;
   }
   const auto half = static_cast<std::size_t>(std::ceil(0.75 * seen.side_m() / params_.bin_m)) + 2;
   counts_.resize(4 * half);
   // In the grid's frame the axes are now expected at this yaw, up to quarter turns.
-  const double expected_rad = std::remainder(axes_yaw_rad_ - yaw_rad, kPi / 2.0);
-  const int reach =
-      std::clamp(static_cast<int>(kSigmas * params_.look_sigma_deg * std::sqrt(variance_)),
-                 kNarrowest, kWidest);
-  std::vector<double> sharp(static_cast<std::size_t>(2 * reach + 1));
+  const double expected_rad = std::remainder(axes_yaw_rad_ - T_odom_robot.yaw, kPi / 2.0);
+  // Of peaks that odometry rules out nothing is believed: not all that stands about is a wall.
+  const double gate_deg = std::min(45.0, 3.0 * sigma_deg_ + 1.0);
+  const int steps = static_cast<int>(std::ceil(std::max(gate_deg, kWidest_deg))) + 1;
+  std::vector<double> sharp;
   double mean = 0.0;
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < sharp.size(); ++i) {
-    sharp[i] = sharpness(hits, expected_rad + (static_cast<double>(i) - reach) * kDegree);
-    mean += sharp[i] / static_cast<double>(sharp.size());
-    best = sharp[i] > sharp[best] ? i : best;
+  for (int i = -steps; i <= steps; ++i) {
+    sharp.push_back(sharpness(hits, expected_rad + i * kDegree));
+    mean += sharp.back() / (2 * steps + 1);
   }
-  const bool is_at_the_rim = best == 0 || best + 1 == sharp.size();
-  if (is_at_the_rim || sharp[best] < params_.least_peak * mean) {
+  const int reach = static_cast<int>(std::lround(gate_deg));
+  const auto at = [&](int i) { return sharp[static_cast<std::size_t>(i + steps)]; };
+  int best = 0;
+  for (int i = -reach; i <= reach; ++i) {
+    best = at(i) > at(best) ? i : best;
+  }
+  if (at(best) < params_.least_peak * mean || at(best) < at(best - 1) || at(best) < at(best + 1)) {
     return;
   }
   // The top of the parabola through the three sharpest neighbours.
-  const double before = sharp[best - 1];
-  const double after = sharp[best + 1];
-  const double bend = before - 2.0 * sharp[best] + after;
-  const double shift = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-  const double off_deg = static_cast<double>(best) - reach + shift;
-  // The walk from look to look with which the gain settles at params_.gain.
-  const double walk = params_.gain * params_.gain / std::max(1e-9, 1.0 - params_.gain);
-  const double gain = (variance_ + walk) / (variance_ + walk + 1.0);
-  axes_yaw_rad_ += gain * off_deg * kDegree;
-  variance_ = gain;
+  const double bend = at(best - 1) - 2.0 * at(best) + at(best + 1);
+  const double shift = bend < 0.0 ? 0.5 * (at(best - 1) - at(best + 1)) / bend : 0.0;
+  // The sharper, the surer: in the clutter of a hall there are peaks as well, but flat ones.
+  const double look_sigma_deg =
+      params_.look_sigma_deg * (params_.least_peak - 1.0) / (at(best) / mean - 1.0);
+  const double gain = squared(sigma_deg_) / (squared(sigma_deg_) + squared(look_sigma_deg));
+  axes_yaw_rad_ += gain * (best + shift) * kDegree;
+  sigma_deg_ = std::max(kNeverSurer_deg, std::sqrt(1.0 - gain) * sigma_deg_);
 }
 
 }  // namespace cmn

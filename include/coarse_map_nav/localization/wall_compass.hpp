@@ -14,23 +14,29 @@ namespace cmn {
 
 struct WallCompassParams {
   bool enabled = true;
-  double gain = 0.2;
-  double turn_share = 0.0;
-  double look_sigma_deg = 2.0;
-  double least_peak = 1.15;
+  double start_sigma_deg = 3.0;
+  double lost_sigma_deg = 15.0;
+  double look_sigma_deg = 4.0;
+  double drift_per_turn_deg = 1.5;
+  double drift_per_m_deg = 0.5;
+  double least_peak = 1.2;
   double bin_m = 0.1;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("enabled", self.enabled, Anything{},
           "take the axes of the drawing from the walls that are seen, not from the odometry alone");
-    visit("gain", self.gain, Between{0.0, 1.0},
-          "[-] share of a new direction that is believed on a straight way");
-    visit("turn_share", self.turn_share, Between{0.0, 1.0},
-          "[-] how much of a turn the odometry loses or adds, 1 sigma: after it the walls that are "
-          "seen count more; 0: a good gyroscope");
-    visit("look_sigma_deg", self.look_sigma_deg, Between{0.1, 20.0},
-          "[deg] standard deviation of the direction that one look shows");
-    visit("least_peak", self.least_peak, Between{1.0, 10.0},
+    visit("start_sigma_deg", self.start_sigma_deg, Between{0.01, 45.0},
+          "[deg] how far from the odometry's axes the walls may run at the start, one sigma");
+    visit("lost_sigma_deg", self.lost_sigma_deg, Between{0.01, 45.0},
+          "[deg] and how far from what was believed when the belief is re-opened");
+    visit("look_sigma_deg", self.look_sigma_deg, Between{0.01, 45.0},
+          "[deg] error of the direction that a look gives whose walls show up just so sharply as "
+          "least_peak, one sigma; less in proportion to what is above 1");
+    visit("drift_per_turn_deg", self.drift_per_turn_deg, Between{0.0, 45.0},
+          "[deg] drift of the odometry's heading in a quarter turn, one sigma");
+    visit("drift_per_m_deg", self.drift_per_m_deg, Between{0.0, 45.0},
+          "[deg] and in a metre driven");
+    visit("least_peak", self.least_peak, Between{1.01, 10.0},
           "[-] how much sharper than on average walls must show up in a direction to count");
     visit("bin_m", self.bin_m, Between{0.02, 1.0},
           "[m] width of the strips that hits are counted in");
@@ -41,19 +47,18 @@ struct WallCompassParams {
 /// at right angles, counting what is seen in strips along and across a direction gives the sharpest
 /// counts along the walls (ours).
 ///
-/// Follows that direction from look to look, starting from the odometry's own axes (Robb: the robot
-/// is set down along the walls), so it never takes a jump of a quarter turn. In round halls and
-/// outside no direction is sharp enough, and the odometry is followed as it is.
-///
-/// How much a look counts is a Kalman filter's gain. On a straight way it is `gain`; a turn in
-/// which the odometry may have lost `turn_share` of it raises it, and widens what is sought, till
-/// the walls have been seen again.
+/// Follows that direction from look to look by a Kalman filter with a gate, starting from the
+/// odometry's own axes (Robb: the robot is set down along the walls), so it never takes a jump of a
+/// quarter turn, nor a piece of furniture that stands askew for a wall. In round halls and outside
+/// no direction is sharp enough, and the odometry is followed as it is.
 class WallCompass {
  public:
-  explicit WallCompass(const WallCompassParams& params) : params_{params}, variance_{params.gain} {}
+  explicit WallCompass(const WallCompassParams& params)
+      : params_{params}, sigma_deg_{params.start_sigma_deg} {}
 
-  /// `yaw_rad` of the grid's x axis in the frame of the odometry.
-  void look(const LocalOccupancy& seen, double yaw_rad);
+  void look(const LocalOccupancy& seen, const Pose2& T_odom_robot);
+  /// The robot may have been turned by any angle.
+  void lose();
   /// Yaw of the building's axes in the frame of the odometry; begins with 0 [rad].
   double axes_yaw_rad() const { return axes_yaw_rad_; }
 
@@ -62,8 +67,8 @@ class WallCompass {
 
   WallCompassParams params_;
   double axes_yaw_rad_ = 0.0;
-  double variance_ = 0.0;  ///< of axes_yaw_rad_, in those of one look
-  std::optional<double> last_yaw_rad_;
+  double sigma_deg_;  ///< of axes_yaw_rad_
+  std::optional<Pose2> T_odom_last_;
   std::vector<int> counts_;
 };
 
