@@ -213,7 +213,9 @@ bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news)
     }
   }
   normalise(total);
-  fit_ = has_fit_ ? fit_ + news * (fit - fit_) : fit;
+  fit_ = has_fit_ ? fit_ + std::min(1.0, news * params_.independence_m / params_.reopen_way_m) *
+                               (fit - fit_)
+                  : fit;
   has_fit_ = true;
   return true;
 }

@@ -36,7 +36,7 @@ double WallCompass::sharpness(const std::vector<Point2>& hits, double yaw_rad) {
   return sum;
 }
 
-void WallCompass::lose() { sigma_deg_ = params_.lost_sigma_deg; }
+void WallCompass::lose() { sigma_deg_ = std::max(sigma_deg_, params_.lost_sigma_deg); }
 
 void WallCompass::look(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
   if (!params_.enabled) {

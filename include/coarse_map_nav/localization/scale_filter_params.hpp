@@ -30,6 +30,7 @@ struct ScaleFilterParams {
   double diffusion = 0.1;
   double blocked_share = 0.3;
   double reopen_fit = -0.8;
+  double reopen_way_m = 1.0;
   double reopen_share = 0.3;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
@@ -72,6 +73,8 @@ struct ScaleFilterParams {
         "reopen_fit", self.reopen_fit, Between{-20.0, 1.0},
         "[nats] the belief is re-opened when the rays fit worse than this at the best hypothesis, "
         "on the mean of the last looks");
+    visit("reopen_way_m", self.reopen_way_m, Between{0.05, 100.0},
+          "[m] the way over which that mean is taken");
     visit("reopen_share", self.reopen_share, Between{0.0, 1.0},
           "[-] share of a uniform belief mixed in then");
     visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
