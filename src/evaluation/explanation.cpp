@@ -188,7 +188,7 @@ Point2 cells_of(const CoarseMap& map, Point2 p_map) {
 
 ExplanationPanel repaired_panel(const EpisodeMoment& moment, const RepairedMap& repaired) {
   return panel("repaired_map", "What was learned about the drawing",
-               "green: drawn as a wall, found open; red: drawn free, found blocked; blue: the way",
+               "green: a wall found open; red: found blocked; blue: the way",
                [&](Canvas& canvas, const cv::Rect2d& area) {
                  const MapView view = view_in(moment.map, area.tl(), area.size());
                  const CoarseMap now = repaired.as_map();

@@ -30,7 +30,7 @@ struct ScaleFilterParams {
   double diffusion = 0.1;
   double blocked_share = 0.3;
   double reopen_fit = -0.8;
-  double reopen_way_m = 1.0;
+  double reopen_way_m = 2.0;
   double reopen_share = 0.3;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {

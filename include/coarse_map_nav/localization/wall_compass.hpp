@@ -14,11 +14,11 @@ namespace cmn {
 
 struct WallCompassParams {
   bool enabled = true;
-  double start_sigma_deg = 3.0;
+  double start_sigma_deg = 2.0;
   double lost_sigma_deg = 15.0;
   double look_sigma_deg = 4.0;
-  double drift_per_turn_deg = 1.5;
-  double drift_per_m_deg = 0.5;
+  double drift_per_turn_deg = 1.0;
+  double drift_per_m_deg = 0.3;
   double least_peak = 1.2;
   double bin_m = 0.1;
   template <class Self, class Visitor>
