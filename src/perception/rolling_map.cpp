@@ -18,8 +18,8 @@ constexpr float kForgotten = 0.05F;
 
 // Alignment: what is searched, and what odometry's word is worth there, in shares of the points.
 constexpr double kTurn_deg = 0.5;
-constexpr double kShift_cells = 0.5;
-constexpr int kShifts = 2;  ///< either way
+constexpr double kShift = 0.5;  ///< [cells]
+constexpr int kShifts = 2;      ///< either way
 constexpr double kPriceOfTurn = 0.01;
 constexpr double kPriceOfShift = 0.2;
 constexpr std::size_t kMostPoints = 400;
@@ -31,11 +31,11 @@ Cell cell_at(Point2 p, double resolution) {
   return {whole_below(p.x / resolution), whole_below(p.y / resolution)};
 }
 
-/// T * point as Pose2 has it, with the sine and cosine worked out once.
+/// pose * point as Pose2 has it, with the sine and cosine worked out once.
 class Transform {
  public:
-  explicit Transform(const Pose2& T)
-      : at_{T.position()}, c_{std::cos(T.yaw)}, s_{std::sin(T.yaw)} {}
+  explicit Transform(const Pose2& pose)
+      : at_{pose.position()}, c_{std::cos(pose.yaw)}, s_{std::sin(pose.yaw)} {}
   Point2 operator()(Point2 p) const {
     return at_ + Point2{c_ * p.x - s_ * p.y, s_ * p.x + c_ * p.y};
   }
@@ -122,7 +122,7 @@ Pose2 RollingMap::aligned(const LocalOccupancy& look, const Pose2& T_map_robot) 
       consider({before.x, before.y, before.yaw + i * step_rad});
     }
     const Pose2 at = best;
-    const double step_m = share * kShift_cells * resolution_;
+    const double step_m = share * kShift * resolution_;
     for (int i = -kShifts; i <= kShifts; ++i) {
       for (int j = -kShifts; j <= kShifts; ++j) {
         consider({at.x + i * step_m, at.y + j * step_m, at.yaw});
