@@ -77,6 +77,17 @@ for file in CL-0.40-home-1{,-cmn,-true_pose}.png CL-0.40-home-1-cmn.gif report.m
   [[ -s $out/whole/$file ]] || wrong "$file is absent"
 done
 
+# Moments taken apart: the parts that a method has, and those alone.
+"$program" --world "$worlds/home.yaml" --out "$out/explained" --replay CL-0.40-home-1-ours CL-0.40-home-1-cmn \
+  --explain 0,3,999 >"$out/explained.txt"
+for part in look range_model likelihood_field one_look belief scales lattice repaired_map; do
+  [[ -s $out/explained/CL-0.40-home-1-ours_action_3/$part.png ]] || wrong "$part.png is absent"
+done
+[[ -s $out/explained/CL-0.40-home-1-ours_action_0.png ]] || wrong "the sheet of action 0 is absent"
+[[ -s $out/explained/CL-0.40-home-1-cmn_action_3/belief.png ]] || wrong "belief.png of cmn is absent"
+[[ ! -e $out/explained/CL-0.40-home-1-cmn_action_3/scales.png ]] || wrong "cmn has no scales"
+[[ $(grep -c 'ended before action 999$' "$out/explained.txt") == 2 ]] || wrong "$(cat "$out/explained.txt")"
+
 "$program" --world house:3-4 --task CG,WL --method true_pose --episodes 1 --out "$out/houses" >/dev/null
 [[ $(grep -cE '^(CG|WL),house:[34],' "$out/houses/episodes.csv") == 4 ]] || wrong "$(rows houses)"
 
@@ -181,5 +192,7 @@ refused "slit.yaml: the world has no free space for a robot of radius 0.18 m" \
 touch "$out/file"
 refused "$out/file" --world "$worlds/home.yaml" --out "$out/file"
 refused "is not the name of an episode" "${home[@]}" --replay 17
+refused "--explain goes with --replay" "${home[@]}" --explain 3
+refused "--explain 3rd is not the number of an action" "${home[@]}" --replay CL-0.40-home-1-cmn --explain 3rd
 refused "needs a --world that is called intel" "${home[@]}" --replay CL-0.40-intel-1-cmn
 refused "absent/episodes.csv" merge "$out/shard0" "$out/absent" --out "$out/refused"
