@@ -9,6 +9,7 @@
 
 #include "ascii_map.hpp"
 #include "random_case.hpp"
+#include "wanderer.hpp"
 #include <gtest/gtest.h>
 
 namespace cmn {
@@ -30,23 +31,6 @@ LocalizationParams without_noise(int count) {
   params.particles.yaw_noise = 0.0;
   params.particles.renewed_share = 0.0;
   return params;
-}
-
-/// A building in which hardly two places look alike, in cells of 0.5 m.
-CoarseMap flat() {
-  return ascii_map({"####################",  //
-                    "#......#....#......#",  //
-                    "#......#....#..##..#",  //
-                    "#..#...#...........#",  //
-                    "#..........####..###",  //
-                    "#......#...#.......#",  //
-                    "####.###...#..#....#",  //
-                    "#......#...#.......#",  //
-                    "#..##......#####..##",  //
-                    "#......#...........#",  //
-                    "#......#....#......#",  //
-                    "####################"},
-                   0.5);
 }
 
 /// What a robot sees that stands at `T_grid_robot` on a building whose cells truly measure
