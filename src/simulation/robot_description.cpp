@@ -115,8 +115,8 @@ RobotDescription read_robot_description(const std::string& path) {
   std::ifstream file{path, std::ios::binary};
   std::ostringstream xml;
   xml << file.rdbuf();
-  if (!file || xml.bad()) {  // bad: a folder
-    throw std::runtime_error(path + ": cannot be read; is the path right and readable?");
+  if (!file || !xml) {
+    throw std::runtime_error(path + ": is empty or cannot be read; is the path right?");
   }
   return parse_robot_description(xml.str(), path);
 }

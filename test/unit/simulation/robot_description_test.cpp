@@ -109,7 +109,7 @@ TEST(RobotDescription, RejectsWhatIsNoUrdf) {
   }
   EXPECT_THAT(problem("<robot name='r'><link/></robot>"), HasSubstr("No name given"));
   EXPECT_THAT(error_of([] { read_robot_description("/nowhere/r.urdf"); }),
-              HasSubstr("/nowhere/r.urdf: cannot be read"));
+              HasSubstr("/nowhere/r.urdf: is empty or cannot be read"));
   EXPECT_THAT(error_of([] { read_robot_description(CMN_SOURCE_DIR "/urdf"); }),
               HasSubstr("cannot be read"));
 }
