@@ -4,7 +4,9 @@
 
 #include "coarse_map_nav/data/geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -16,6 +18,9 @@
 
 namespace cmn {
 namespace {
+
+/// TinyXML, behind urdfdom, descends into elements as deep as the stack allows, and deeper.
+constexpr int kDeepest = 100;
 
 /// A sentence that grows.
 class Problems {
@@ -53,6 +58,28 @@ class Complaints : public console_bridge::OutputHandler {
  private:
   console_bridge::OutputHandler* before_;
 };
+
+/// How deep elements lie in one another.
+int nesting_of(const std::string& xml) {
+  int depth = 0;
+  int deepest = 0;
+  for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i + 1)) {
+    if (xml.compare(i, 4, "<!--") == 0) {
+      i = std::min(xml.find("-->", i), xml.size());
+    } else if (xml.compare(i, 2, "</") == 0) {
+      --depth;
+    } else if (xml.compare(i, 2, "<!") != 0 && xml.compare(i, 2, "<?") != 0) {
+      char quote = 0;
+      while (++i < xml.size() && (quote != 0 || xml[i] != '>')) {
+        const bool is_quote = xml[i] == '"' || xml[i] == '\'';
+        quote = quote == 0 && is_quote ? xml[i] : quote == xml[i] ? 0 : quote;
+      }
+      depth += xml[i - 1] == '/' ? 0 : 1;
+      deepest = std::max(deepest, depth);
+    }
+  }
+  return deepest;
+}
 
 Eigen::Isometry3d pose_of(const urdf::Pose& pose) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -97,6 +124,10 @@ RobotDescription parse_robot_description(const std::string& xml, const std::stri
   RobotDescription robot;
   robot.name = name;
   Problems problems;
+  if (nesting_of(xml) > kDeepest) {
+    problems.add("is no URDF: its elements lie more than " + std::to_string(kDeepest) + " deep");
+  }
+  problems.throw_if_any(name);
   Complaints complaints;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
   for (const std::string& error : complaints.errors) {

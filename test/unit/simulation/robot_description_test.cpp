@@ -108,6 +108,11 @@ TEST(RobotDescription, RejectsWhatIsNoUrdf) {
     EXPECT_THAT(problem(xml), HasSubstr("is no URDF")) << xml;
   }
   EXPECT_THAT(problem("<robot name='r'><link/></robot>"), HasSubstr("No name given"));
+  std::string deep = "<robot name='r'>";
+  for (int i = 0; i < 200000; ++i) {
+    deep += "<a b='/>'>";
+  }
+  EXPECT_THAT(problem(deep), HasSubstr("more than 100 deep"));
   EXPECT_THAT(error_of([] { read_robot_description("/nowhere/r.urdf"); }),
               HasSubstr("/nowhere/r.urdf: is empty or cannot be read"));
   EXPECT_THAT(error_of([] { read_robot_description(CMN_SOURCE_DIR "/urdf"); }),
