@@ -101,7 +101,8 @@ cv::Mat RollingMap::surfaces() const {
     const float* confidence = &confidence_({0, first.y});
     const auto copy = [&](int from, int to, float* out) {
       for (int x = from; x < to; ++x) {
-        out[x - from] = confidence[x] > 0.0F ? occupancy[x] - 0.5F : 0.0F;
+        const float above = occupancy[x] - 0.5F;  // read in any case: no branch
+        out[x - from] = confidence[x] > 0.0F ? above : 0.0F;
       }
     };
     copy(first.x, size, image.ptr<float>(y));
@@ -228,12 +229,11 @@ void RollingMap::fold_in(const LocalOccupancy& look, const Pose2& T_map_robot) {
     float* confidence = &confidence_({0, place.y});
     for (int dx = in_look.first, x = place.x; dx <= in_look.last; ++dx, ++x) {
       x = x == window ? 0 : x;
-      const int ix = whole_below(first.x + dx * along.x);
-      const int iy = whole_below(first.y + dx * along.y);
-      if (ix < 0 || iy < 0 || ix >= look.size || iy >= look.size) {
+      const Point2 p{first.x + dx * along.x, first.y + dx * along.y};
+      if (p.x < 0.0 || p.y < 0.0 || p.x >= look.size || p.y >= look.size) {
         continue;
       }
-      const std::size_t i = look.index_of(ix, iy);
+      const std::size_t i = look.index_of(static_cast<int>(p.x), static_cast<int>(p.y));
       const float news = look.confidence[i];
       if (news > 0.0F) {
         const float before = confidence[x] > 0.0F ? confidence[x] * occupancy[x] : 0.0F;
@@ -258,15 +258,15 @@ LocalOccupancy RollingMap::all_known(const LocalOccupancy& look, const Pose2& T_
   for (int iy = 0; iy < look.size; ++iy) {
     const Point2 row{first.x - iy * along.y, first.y + iy * along.x};
     for (int ix = 0; ix < look.size; ++ix) {
-      const int x = place.x + whole_below(row.x + ix * along.x);
-      const int y = place.y + whole_below(row.y + ix * along.y);
-      const Cell there{x < window ? x : x - window, y < window ? y : y - window};
-      const float confidence = confidence_(there);
-      if (confidence > 0.0F) {
-        const std::size_t i = look.index_of(ix, iy);
-        all.occupancy[i] = occupancy_(there);
-        all.confidence[i] = confidence;
-      }
+      // Within the window, so neither is below 0.
+      const int x = place.x + static_cast<int>(row.x + ix * along.x);
+      const int y = place.y + static_cast<int>(row.y + ix * along.y);
+      const std::size_t there =
+          confidence_.index_of({x < window ? x : x - window, y < window ? y : y - window});
+      const std::size_t i = look.index_of(ix, iy);
+      const bool is_known = confidence_[there] > 0.0F;
+      all.occupancy[i] = is_known ? occupancy_[there] : look.occupancy[i];
+      all.confidence[i] = is_known ? confidence_[there] : look.confidence[i];
     }
   }
   return all;
