@@ -49,18 +49,22 @@ class RollingMap {
   void forget();
 
  private:
-  struct Known {
-    float occupancy = 0.5F;
-    float confidence = 0.0F;
-  };
+  /// Where a cell of the map's frame is kept: the window is wrapped round.
+  Cell place_of(Cell c) const;
   /// Of the window: above 0 where something stands, below where it is free, 0 where unknown.
   cv::Mat surfaces() const;
   /// The pose near `T_map_robot` at which the look fits best.
   Pose2 aligned(const LocalOccupancy& look, const Pose2& T_map_robot) const;
   void scroll_to(Cell middle);
+  /// What was seen counts less from now on.
+  void age(double driven_m);
+  void fold_in(const LocalOccupancy& look, const Pose2& T_map_robot);
+  /// `look`, and what else is known where it lies.
+  LocalOccupancy all_known(const LocalOccupancy& look, const Pose2& T_map_robot) const;
 
   RollingMapParams params_;
-  Grid<Known> known_;
+  Grid<float> occupancy_;
+  Grid<float> confidence_;  ///< 0: unknown
   double resolution_ = 0.0;
   Pose2 T_map_odom_;  ///< what odometry has drifted since the beginning
   Cell middle_;       ///< cell of the map's frame that the window is about
