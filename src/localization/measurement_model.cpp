@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/measurement_model.hpp"
 
-#include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/whole_number.hpp"
-#include "coarse_map_nav/localization/neighbourhood.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -200,31 +198,9 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
 }
 
 OverlapModel::OverlapModel(const CoarseMap& map, const MeasurementModelParams& params)
-    : params_{params}, map_{map} {
-  likelihood_.is_by_neighbourhood = params.window_cells() == 3;
-  const std::size_t count = likelihood_.is_by_neighbourhood
-                                ? kNeighbourhoods
-                                : Belief(map.width(), map.height()).padded_size();
-  for (auto& values : likelihood_.values) {
-    values.assign(count, 0.0);
-  }
-  const int reach = params.window_reach;
-  for (int y = -reach; y < map.height() + reach && !likelihood_.is_by_neighbourhood; ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      std::uint32_t code = 0;
-      for (int i = 0; i < params.window_cells(); ++i) {
-        code |= (map.is_occupied({x - reach + i, y}) ? 1U : 0U) << static_cast<unsigned>(i);
-      }
-      row_codes_.push_back(code);
-    }
-  }
-  const Belief layout{map.width(), map.height()};
-  for (std::size_t i = 0; i < map.occupied().size(); ++i) {
-    const Cell c = map.occupied().cell_at(i);
-    if (map.is_free(c)) {
-      free_cells_.push_back(
-          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(layout.padded_index(c))});
-    }
+    : params_{params}, kinds_{map, params.window_reach}, sums_(kinds_.pieces) {
+  for (std::vector<double>& values : likelihood_) {
+    values.assign(kinds_.size(), 0.0);
   }
 }
 
@@ -232,37 +208,16 @@ const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double resid
                                         double weight, const HeadingSet& headings) {
   const std::vector<double> window = reduce(seen, params_, residual_yaw_rad);
   for (const Heading h : kHeadings) {
-    if (!headings[static_cast<std::size_t>(index(h))]) {
-      continue;
-    }
-    if (likelihood_.is_by_neighbourhood) {
-      fill_by_neighbourhood(window, h, weight * params_.exponent);
-    } else {
-      fill_by_cell(window, h, weight * params_.exponent);
+    if (headings[static_cast<std::size_t>(index(h))]) {
+      fill(window, h, weight * params_.exponent);
     }
   }
   return likelihood_;
 }
 
-void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Heading heading,
-                                         double exponent) {
+void OverlapModel::fill(const std::vector<double>& window, Heading heading, double exponent) {
   // |m_hat - m| is m_hat where the map is free and 1 - m_hat where it is occupied: linear in the
   // map's bits.
-  std::vector<double>& table = likelihood_.values[static_cast<std::size_t>(index(heading))];
-  std::array<double, 9> by_bit{};
-  double free_everywhere = 9.0;
-  for (int w = 0; w < 9; ++w) {
-    const double m_hat = window[static_cast<std::size_t>(w)];
-    const Cell offset = in_map_axes(w, 3, heading);
-    by_bit[static_cast<std::size_t>((offset.y + 1) * 3 + offset.x + 1)] = (2.0 * m_hat - 1.0) / 9.0;
-    free_everywhere -= m_hat;
-  }
-  fill_subset_sums(free_everywhere / 9.0, by_bit.data(), 9, table.data());
-  raise(table, exponent);
-}
-
-void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading,
-                                double exponent) {
   const int n = params_.window_cells();
   std::vector<double> by_bit(window.size());
   double free_everywhere = n * n;
@@ -273,30 +228,19 @@ void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading headi
         (2.0 * m_hat - 1.0) / (n * n);
     free_everywhere -= m_hat;
   }
-  // The rows of the window, in parts of at most 9 bits.
-  struct Part {
-    std::size_t row;
-    unsigned first_bit;
-    std::array<double, kNeighbourhoods> sums;
-  };
-  std::vector<Part> parts;
-  for (int row = 0; row < n; ++row) {
-    for (int bit = 0; bit < n; bit += 9) {
-      parts.push_back({static_cast<std::size_t>(row), static_cast<unsigned>(bit), {}});
-      fill_subset_sums(parts.size() == 1 ? free_everywhere / (n * n) : 0.0,
-                       by_bit.data() + row * n + bit, std::min(9, n - bit),
-                       parts.back().sums.data());
-    }
+  for (std::size_t piece = 0; piece < sums_.size(); ++piece) {
+    const int first = static_cast<int>(piece) * kPieceBits;
+    fill_subset_sums(piece == 0 ? free_everywhere / (n * n) : 0.0, by_bit.data() + first,
+                     std::min(kPieceBits, n * n - first), sums_[piece].data());
   }
-  const auto width = static_cast<std::size_t>(map_.width());
-  std::vector<double>& values = likelihood_.values[static_cast<std::size_t>(index(heading))];
-  for (const FreeCell& cell : free_cells_) {
-    const std::uint32_t* codes = row_codes_.data() + cell.index;
-    double sum = 0.0;
-    for (const Part& part : parts) {
-      sum += part.sums[(codes[part.row * width] >> part.first_bit) % kNeighbourhoods];
+  std::vector<double>& values = likelihood_[static_cast<std::size_t>(index(heading))];
+  const std::uint16_t* codes = kinds_.codes.data();
+  for (double& value : values) {
+    double sum = sums_[0][*codes++];
+    for (std::size_t piece = 1; piece < sums_.size(); ++piece) {
+      sum += sums_[piece][*codes++];
     }
-    values[cell.padded] = sum;
+    value = sum;
   }
   raise(values, exponent);
 }
