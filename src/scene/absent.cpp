@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Stands in for the files that need Embree, assimp, sdformat and libzip in a build without them.
+#include "coarse_map_nav/scene/furniture_meshes.hpp"
 #include "coarse_map_nav/scene/ray_caster.hpp"
 #include "coarse_map_nav/scene/sdf_reader.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 }  // namespace
 
 std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const Scene> /*scene*/) { refuse(); }
+
+std::unique_ptr<FurnitureMeshes> open_furniture(const std::string& /*folder*/) { refuse(); }
 
 Scene read_sdf(const std::string& /*path*/, std::vector<std::string>& /*warnings*/,
                SdfPart /*part*/) {
