@@ -13,7 +13,10 @@ namespace cmn {
 namespace {
 
 constexpr float kLift_m = 2e-3F;  ///< a shadow ray starts so far off its surface
+constexpr float kSunAway_m = 1e3F;
 constexpr std::size_t kMostLights = 16;
+/// A light of a smaller share of what the others leave is not worth a ray.
+constexpr float kFaint = 0.03F;
 const Eigen::Vector3f kSky{0.45F, 0.55F, 0.7F};
 /// Auto exposure puts the mean of an image here, on the linear scale; that of middle grey.
 constexpr float kMiddle = 0.2F;
@@ -46,20 +49,23 @@ const std::array<float, kShades + 1>& srgb_of_linear() {
   return kTable;
 }
 
-/// What a light throws on a point that faces it; `to_light` gets the way there.
+/// What a light throws on a point of a surface; zero from behind.
 Eigen::Vector3f strength_at(const Light& light, const Eigen::Vector3f& point,
-                            Eigen::Vector3f& to_light) {
+                            const Eigen::Vector3f& normal) {
   if (light.is_sun) {
-    to_light = -1e3F * light.direction;
-    return light.strength;
+    return std::max(0.0F, -normal.dot(light.direction)) * light.strength;
   }
-  to_light = light.position - point;
+  const Eigen::Vector3f to_light = light.position - point;
+  const float along = normal.dot(to_light);
+  if (along <= 0.0F) {
+    return Eigen::Vector3f::Zero();
+  }
   const float d = to_light.norm();
   if (-light.direction.dot(to_light) < light.cone_cos * d) {
     return Eigen::Vector3f::Zero();
   }
-  return light.strength /
-         std::max(1e-3F, light.falloff[0] + light.falloff[1] * d + light.falloff[2] * d * d);
+  const float loss = light.falloff[0] + light.falloff[1] * d + light.falloff[2] * d * d;
+  return along / (d * std::max(1e-3F, loss)) * light.strength;
 }
 
 }  // namespace
@@ -74,77 +80,76 @@ ColorCamera::ColorCamera(const ColorCameraParams& params, std::uint32_t seed)
       rays_{camera_, params.samples},
       rng_{seed + 1ULL} {}
 
-void ColorCamera::choose_lights(const Scene& scene, const Eigen::Vector3f& eye) {
-  lights_.clear();
+void ColorCamera::choose_lamps(const Scene& scene, const Eigen::Vector3f& eye) {
+  std::vector<const Light*> lights;
   for (const Light& light : scene.lights) {
-    lights_.push_back(&light);
+    lights.push_back(&light);
   }
-  if (lights_.size() > kMostLights) {
-    const auto brightness = [&](const Light* light) {
-      return light->is_sun ? std::numeric_limits<float>::infinity()
-                           : light->strength.sum() /
-                                 (light->falloff.sum() * (light->position - eye).squaredNorm());
-    };
+  const auto brightness = [&](const Light* light) {
+    return light->is_sun ? std::numeric_limits<float>::infinity()
+                         : light->strength.sum() /
+                               (light->falloff.sum() * (light->position - eye).squaredNorm());
+  };
+  if (lights.size() > kMostLights) {
     std::nth_element(
-        lights_.begin(), lights_.begin() + kMostLights, lights_.end(),
+        lights.begin(), lights.begin() + kMostLights, lights.end(),
         [&](const Light* a, const Light* b) { return brightness(a) > brightness(b); });
-    lights_.resize(kMostLights);
+    lights.resize(kMostLights);
+  }
+  lamps_.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    lamps_[i].light = lights[i];
+    lamps_[i].lit.clear();
+    lamps_[i].strengths.clear();
+    lamps_[i].rays.clear();
   }
 }
 
 void ColorCamera::light(const Scene& scene, std::size_t ray, const Eigen::Vector3f& point,
                         const Eigen::Vector3f& normal) {
   shaded_[ray] = scene.ambient * (0.8F + 0.2F * normal.z());
-  struct Candidate {
-    Eigen::Vector3f light;
-    Eigen::Vector3f to_light;
-    float brightness;
-  };
-  std::array<Candidate, kMostLights> candidates;
-  std::size_t count = 0;
-  for (const Light* light : lights_) {
-    Candidate& one = candidates[count];
-    const Eigen::Vector3f strength = strength_at(*light, point, one.to_light);
-    const float cosine = normal.dot(one.to_light) / one.to_light.norm();
-    if (cosine > 0.0F) {
-      one.light = cosine * strength;
-      one.brightness = one.light.sum();
-      count += one.brightness > 0.0F;
+  std::array<Eigen::Vector3f, kMostLights> strengths;
+  std::array<float, kMostLights> brightness{};
+  for (std::size_t i = 0; i < lamps_.size(); ++i) {
+    strengths[i] = strength_at(*lamps_[i].light, point, normal);
+    brightness[i] = strengths[i].sum();
+    if (params_.shadow_lights == 0) {
+      shaded_[ray] += strengths[i];
     }
   }
-  const auto shadows = static_cast<std::size_t>(params_.shadow_lights);
-  if (shadows == 0) {
-    for (std::size_t i = 0; i < count; ++i) {
-      shaded_[ray] += candidates[i].light;
+  const Eigen::Vector3f lifted = point + kLift_m * normal;
+  for (int shadow = 0; shadow < params_.shadow_lights; ++shadow) {
+    const auto brightest = std::max_element(brightness.begin(), brightness.end());
+    if (*brightest < kFaint * shaded_[ray].sum()) {
+      break;
     }
-    return;
-  }
-  const std::size_t strongest = std::min(shadows, count);
-  std::partial_sort(
-      candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(strongest),
-      candidates.begin() + static_cast<std::ptrdiff_t>(count),
-      [](const Candidate& a, const Candidate& b) { return a.brightness > b.brightness; });
-  for (std::size_t i = 0; i < strongest; ++i) {
-    lit_.push_back({ray, candidates[i].light});
-    shadow_rays_.push_back({point + kLift_m * normal, candidates[i].to_light, 0.99F});
+    const auto i = static_cast<std::size_t>(brightest - brightness.begin());
+    Lamp& lamp = lamps_[i];
+    const Eigen::Vector3f source =
+        lamp.light->is_sun ? Eigen::Vector3f{lifted - kSunAway_m * lamp.light->direction}
+                           : lamp.light->position;
+    lamp.lit.push_back(ray);
+    lamp.strengths.push_back(strengths[i]);
+    lamp.rays.push_back({source, lifted - source, 1.0F});
+    *brightest = -1.0F;
   }
 }
 
 void ColorCamera::shade(const RayCaster& caster, const std::vector<Ray>& rays) {
   const Scene& scene = caster.scene();
   shaded_.resize(rays.size());
-  lit_.clear();
-  shadow_rays_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits_[i].is_hit()) {
       light(scene, i, rays[i].origin + hits_[i].way * rays[i].direction,
             normal_at(scene, hits_[i], rays[i].direction));
     }
   }
-  caster.find_blocked(shadow_rays_, is_hidden_);
-  for (std::size_t i = 0; i < lit_.size(); ++i) {
-    if (is_hidden_[i] == 0) {
-      shaded_[lit_[i].ray] += lit_[i].light;
+  for (const Lamp& lamp : lamps_) {
+    caster.find_blocked(lamp.rays, is_hidden_);
+    for (std::size_t i = 0; i < lamp.lit.size(); ++i) {
+      if (is_hidden_[i] == 0) {
+        shaded_[lamp.lit[i]] += lamp.strengths[i];
+      }
     }
   }
   const auto& linear = linear_of_srgb();
@@ -170,7 +175,7 @@ cv::Mat ColorCamera::take(const RayCaster& caster, const Eigen::Isometry3d& T_wo
   const std::vector<Ray>& rays =
       rays_.from(T_world_camera, std::numeric_limits<float>::infinity());
   caster.cast(rays, hits_);
-  choose_lights(caster.scene(), T_world_camera.translation().cast<float>());
+  choose_lamps(caster.scene(), T_world_camera.translation().cast<float>());
   shade(caster, rays);
   cv::Mat linear = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC3);
   auto* sums = linear.ptr<cv::Vec3f>();

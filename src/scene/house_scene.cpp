@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace cmn {
 namespace {
@@ -130,10 +131,9 @@ class HouseBuilder {
     const Pose2& T = piece.T_house_piece;
     const Eigen::Affine3d T_house_piece{Eigen::Translation3d{T.x, T.y, 0.0} *
                                         Eigen::AngleAxisd{T.yaw, Eigen::Vector3d::UnitZ()}};
-    // A draw of its own for each piece, so that a mesh less does not change all that follow.
-    std::mt19937_64 own{rng_()};
     if (meshes_ != nullptr) {
-      if (const std::optional<Scene> mesh = meshes_->fit(piece, own)) {
+      std::mt19937_64 rng{seed_of(piece)};
+      if (const std::optional<Scene> mesh = meshes_->fit(piece, rng)) {
         add(scene_, *mesh, T_house_piece);
         return;
       }
@@ -149,7 +149,16 @@ class HouseBuilder {
     add(scene_, boxes, T_house_piece);
   }
 
-  /// Pieces of one kind match within a house.
+  /// Pieces of one kind match within a room: the same chairs around a table.
+  std::uint64_t seed_of(const Furniture& piece) {
+    const auto [at, is_new] = seeds_.emplace(std::pair{piece.room, piece.name}, 0);
+    if (is_new) {
+      at->second = rng_();
+    }
+    return at->second;
+  }
+
+  /// Boxes of one kind are of one colour within a house.
   Eigen::Vector3f paint_of(const std::string& kind) {
     const auto [at, is_new] = paints_.emplace(kind, Eigen::Vector3f::Zero());
     if (is_new) {
@@ -162,6 +171,7 @@ class HouseBuilder {
   std::mt19937_64 rng_;
   FurnitureMeshes* meshes_;
   Scene scene_;
+  std::map<std::pair<int, std::string>, std::uint64_t> seeds_;  ///< by room and kind
   std::map<std::string, Eigen::Vector3f> paints_;  ///< by kind of furniture
 };
 

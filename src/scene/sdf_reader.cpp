@@ -59,7 +59,7 @@ class SdfReader {
       throw std::runtime_error(path_ + ": " + e.what());
     }
     for (const sdf::Error& error : errors) {
-      warnings_.push_back(path_ + ": " + error.Message());
+      warnings_.push_back(path_ + ": sdformat says: " + error.Message());
     }
     for (std::uint64_t i = 0; i < root.WorldCount(); ++i) {
       read(*root.WorldByIndex(i));

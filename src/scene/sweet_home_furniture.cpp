@@ -59,7 +59,7 @@ const std::vector<std::string>& names_of(const std::string& kind) {
       {"stove", {"Large stove", "Oven"}},
       {"table",
        {"Table", "Wooden table", "Wooden alder table", "Wooden teak table", "Black table",
-        "Glass table", "Oak table", "Round table", "Table on trestles", "Folding table"}},
+        "Oak table", "Round table", "Table on trestles", "Folding table"}},
       {"toilet", {"Toilets unit"}},
       {"TV", {"TV", "Wall flat TV"}},
       {"TV stand", {"TV stand"}},

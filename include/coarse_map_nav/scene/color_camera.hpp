@@ -56,12 +56,14 @@ class ColorCamera {
   const CameraModel& camera() const { return camera_; }
 
  private:
-  /// A light on a hit, waiting for whether something stands between.
-  struct Lit {
-    std::size_t ray;
-    Eigen::Vector3f light;  ///< RGB, linear
+  /// A light that matters for an image, and what it throws where nothing stands between.
+  struct Lamp {
+    const Light* light;
+    std::vector<std::size_t> lit;            ///< indices of camera rays
+    std::vector<Eigen::Vector3f> strengths;  ///< on each of them: RGB, linear
+    std::vector<Ray> rays;                   ///< from the light to each of them
   };
-  void choose_lights(const Scene& scene, const Eigen::Vector3f& eye);
+  void choose_lamps(const Scene& scene, const Eigen::Vector3f& eye);
   void shade(const RayCaster& caster, const std::vector<Ray>& rays);
   void light(const Scene& scene, std::size_t ray, const Eigen::Vector3f& point,
              const Eigen::Vector3f& normal);
@@ -72,10 +74,8 @@ class ColorCamera {
   CameraRays rays_;
   cv::RNG rng_;
   std::vector<Hit> hits_;
-  std::vector<const Light*> lights_;     ///< that matter for this image
+  std::vector<Lamp> lamps_;
   std::vector<Eigen::Vector3f> shaded_;  ///< light of every ray, then times its colour
-  std::vector<Lit> lit_;
-  std::vector<Ray> shadow_rays_;  ///< one for each of lit_
   std::vector<std::uint8_t> is_hidden_;
 };
 

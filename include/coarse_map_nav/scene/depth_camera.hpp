@@ -27,7 +27,7 @@ struct DepthCameraParams {
   double noise_m = 0.0025;
   double step_m = 0.0016;
   double baseline_m = 0.05;
-  double grazing_deg = 12.0;
+  double grazing_deg = 6.0;
   double faintest = 0.0015;
   double flying_share = 0.3;
   double stripe_share = 0.0;
