@@ -74,8 +74,8 @@ void run(benchmark::State& state, const std::string& name, const RayCastSensorPa
   for (auto _ : state) {
     look(sensors, on.places[i++ % on.places.size()]);
   }
-  state.counters["Hz"] = benchmark::Counter(static_cast<double>(state.iterations()),
-                                            benchmark::Counter::kIsRate);
+  state.counters["Hz"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 void lidar_640(benchmark::State& state, const std::string& name) {

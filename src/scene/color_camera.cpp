@@ -41,8 +41,8 @@ const std::array<float, kShades + 1>& srgb_of_linear() {
     std::array<float, kShades + 1> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
       const float c = static_cast<float>(i) / kShades;
-      table[i] = 255.0F * (c <= 0.0031308F ? 12.92F * c
-                                           : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F);
+      table[i] =
+          255.0F * (c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F);
     }
     return table;
   }();
@@ -91,9 +91,8 @@ void ColorCamera::choose_lamps(const Scene& scene, const Eigen::Vector3f& eye) {
                                (light->falloff.sum() * (light->position - eye).squaredNorm());
   };
   if (lights.size() > kMostLights) {
-    std::nth_element(
-        lights.begin(), lights.begin() + kMostLights, lights.end(),
-        [&](const Light* a, const Light* b) { return brightness(a) > brightness(b); });
+    std::nth_element(lights.begin(), lights.begin() + kMostLights, lights.end(),
+                     [&](const Light* a, const Light* b) { return brightness(a) > brightness(b); });
     lights.resize(kMostLights);
   }
   lamps_.resize(lights.size());
@@ -156,8 +155,8 @@ void ColorCamera::shade(const RayCaster& caster, const std::vector<Ray>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits_[i].is_hit()) {
       const cv::Vec3b c = colour_at(scene, hits_[i]);
-      shaded_[i] = shaded_[i].cwiseProduct(Eigen::Vector3f{linear[c[2]], linear[c[1]],
-                                                           linear[c[0]]});
+      shaded_[i] =
+          shaded_[i].cwiseProduct(Eigen::Vector3f{linear[c[2]], linear[c[1]], linear[c[0]]});
     } else {
       shaded_[i] = kSky;
     }
@@ -172,8 +171,7 @@ float ColorCamera::exposure(const cv::Mat& linear) const {
 }
 
 cv::Mat ColorCamera::take(const RayCaster& caster, const Eigen::Isometry3d& T_world_camera) {
-  const std::vector<Ray>& rays =
-      rays_.from(T_world_camera, std::numeric_limits<float>::infinity());
+  const std::vector<Ray>& rays = rays_.from(T_world_camera, std::numeric_limits<float>::infinity());
   caster.cast(rays, hits_);
   choose_lamps(caster.scene(), T_world_camera.translation().cast<float>());
   shade(caster, rays);

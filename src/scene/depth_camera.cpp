@@ -95,8 +95,8 @@ void DepthCamera::drop_weak(const RayCaster& caster, cv::Mat& depth) {
       continue;
     }
     const Eigen::Vector3f& direction = (*cast_rays_)[i].direction;
-    const float cosine = -face_normal(caster.scene(), hits_[i], direction).dot(direction) /
-                         direction.norm();
+    const float cosine =
+        -face_normal(caster.scene(), hits_[i], direction).dot(direction) / direction.norm();
     const float back = reflectance(caster.scene(), hits_[i]) * cosine / (z * z);
     // The weaker, the likelier a hole.
     if (chance * grazing > cosine || chance * faintest > back) {
@@ -126,8 +126,7 @@ void DepthCamera::blur(cv::Mat& depth) {
     cv::blur(error, error, {kPatch, kPatch});
   }
   for (int left = 0; params_.stripe_share > 0.0 && left < depth.cols;) {
-    const int width =
-        std::min(rng_.uniform(kStripeWidth[0], kStripeWidth[1]), depth.cols - left);
+    const int width = std::min(rng_.uniform(kStripeWidth[0], kStripeWidth[1]), depth.cols - left);
     if (uniform() < static_cast<float>(params_.stripe_share)) {
       error.colRange(left, left + width) +=
           rng_.gaussian(std::max(params_.noise_m, params_.step_m) * kStripeNoise);

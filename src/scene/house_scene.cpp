@@ -47,8 +47,8 @@ class HouseBuilder {
       const Point2 middle = room.area.middle();
       lamp.position = point(middle.x, middle.y, house_.ceiling_m);
       lamp.position.z() -= kLampBelowCeiling_m;
-      lamp.strength = static_cast<float>(1.5 + 2.0 * draw_uniform(rng_)) *
-                      Eigen::Vector3f{1.0F, 0.95F, 0.85F};
+      lamp.strength =
+          static_cast<float>(1.5 + 2.0 * draw_uniform(rng_)) * Eigen::Vector3f{1.0F, 0.95F, 0.85F};
       scene_.lights.push_back(lamp);
     }
     for (const Opening& opening : house_.openings) {
@@ -172,7 +172,7 @@ class HouseBuilder {
   FurnitureMeshes* meshes_;
   Scene scene_;
   std::map<std::pair<int, std::string>, std::uint64_t> seeds_;  ///< by room and kind
-  std::map<std::string, Eigen::Vector3f> paints_;  ///< by kind of furniture
+  std::map<std::string, Eigen::Vector3f> paints_;               ///< by kind of furniture
 };
 
 }  // namespace

@@ -212,8 +212,9 @@ std::size_t add_mesh(Scene& scene, const aiMesh& mesh) {
       is_sound = is_sound && face.mIndices[k] < mesh.mNumVertices;
       triangle.corners[k] = first + face.mIndices[k];
     }
-    is_sound = is_sound && std::all_of(triangle.corners.begin(), triangle.corners.end(),
-                                       [&](std::uint32_t c) { return scene.vertices[c].allFinite(); });
+    is_sound =
+        is_sound && std::all_of(triangle.corners.begin(), triangle.corners.end(),
+                                [&](std::uint32_t c) { return scene.vertices[c].allFinite(); });
     if (is_sound) {
       scene.triangles.push_back(triangle);
     }
@@ -266,8 +267,7 @@ Scene read_with(const Reading& reading, Assimp::Importer& importer) {
     return part;
   }
   Scene upright;
-  add(upright, part,
-      Eigen::Affine3d{Eigen::AngleAxisd{0.5 * EIGEN_PI, Eigen::Vector3d::UnitX()}});
+  add(upright, part, Eigen::Affine3d{Eigen::AngleAxisd{0.5 * EIGEN_PI, Eigen::Vector3d::UnitX()}});
   return upright;
 }
 

@@ -97,8 +97,7 @@ class IncludeCounter {
     std::size_t sum = 1;
     for (const std::string& uri : texts_in(file, "include", "uri")) {
       const std::string model = find_uri(uri, file.parent_path().string(), folders_);
-      for (const fs::path& included :
-           model.empty() ? std::vector<fs::path>{} : files_of(model)) {
+      for (const fs::path& included : model.empty() ? std::vector<fs::path>{} : files_of(model)) {
         sum += count(included);
         if (sum > kMostIncludes) {
           throw std::runtime_error(key + ": includes more than " + std::to_string(kMostIncludes) +

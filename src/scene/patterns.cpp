@@ -26,8 +26,7 @@ cv::Mat grained(const cv::Mat& pattern, std::mt19937_64& rng, double strength, c
     for (int column = 0; column < made.cols; ++column) {
       auto& texel = made.at<cv::Vec4b>(row, column);
       for (int channel = 0; channel < 3; ++channel) {
-        texel[channel] =
-            cv::saturate_cast<uchar>(texel[channel] + noise.at<float>(row, column));
+        texel[channel] = cv::saturate_cast<uchar>(texel[channel] + noise.at<float>(row, column));
       }
     }
   }

@@ -34,7 +34,8 @@ RangeScan RayCastSensors::scan(const Pose2& T_world_robot, double stamp_s) {
   const Eigen::Vector3f origin = T_world_lidar.translation().cast<float>();
   beams_.clear();
   for (const Point2 d : lidar_.directions()) {
-    beams_.push_back({origin, (T_world_lidar.linear() * Eigen::Vector3d{d.x, d.y, 0.0}).cast<float>(),
+    beams_.push_back({origin,
+                      (T_world_lidar.linear() * Eigen::Vector3d{d.x, d.y, 0.0}).cast<float>(),
                       static_cast<float>(lidar_reach_m_)});
   }
   caster_->cast(beams_, hits_);

@@ -26,8 +26,7 @@ Eigen::Vector3f normal_at(const Scene& scene, const Hit& hit, const Eigen::Vecto
                                  hit.v * scene.normals[triangle.corners[2]];
   const float length = smooth.norm();
   // Shorter: no smooth normals, or such that cancel each other.
-  return length < 0.1F ? face_normal(scene, hit, direction)
-                       : towards(smooth / length, direction);
+  return length < 0.1F ? face_normal(scene, hit, direction) : towards(smooth / length, direction);
 }
 
 }  // namespace cmn

@@ -44,8 +44,8 @@ std::uint32_t Scene::add_material(Material material) {
 
 void Scene::add_quad(const std::array<Eigen::Vector3f, 4>& corners, std::uint32_t material) {
   const std::uint32_t first = count_of(vertices);
-  const std::array<Eigen::Vector2f, 4> points{Eigen::Vector2f{0.0F, 0.0F}, {1.0F, 0.0F},
-                                              {1.0F, 1.0F}, {0.0F, 1.0F}};
+  const std::array<Eigen::Vector2f, 4> points{
+      Eigen::Vector2f{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}};
   for (std::size_t i = 0; i < 4; ++i) {
     add_vertex(*this, corners[i], Eigen::Vector3f::Zero(), points[i]);
   }

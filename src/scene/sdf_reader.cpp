@@ -157,9 +157,10 @@ class SdfReader {
         (T.linear() * Eigen::Vector3d{along.X(), along.Y(), along.Z()}).normalized().cast<float>();
     light.is_sun = from.Type() == sdf::LightType::DIRECTIONAL;
     light.strength = static_cast<float>(from.Intensity()) * rgb(from.Diffuse());
-    light.falloff = Eigen::Vector3d{from.ConstantAttenuationFactor(), from.LinearAttenuationFactor(),
-                                    from.QuadraticAttenuationFactor()}
-                        .cast<float>();
+    light.falloff =
+        Eigen::Vector3d{from.ConstantAttenuationFactor(), from.LinearAttenuationFactor(),
+                        from.QuadraticAttenuationFactor()}
+            .cast<float>();
     if (from.Type() == sdf::LightType::SPOT) {
       light.cone_cos = static_cast<float>(std::cos(0.5 * from.SpotOuterAngle().Radian()));
     }
@@ -179,8 +180,8 @@ class SdfReader {
     }
     Material made;
     made.name = visual.Name();
-    made.colour = from->Element() && from->Element()->HasElement("diffuse") ? rgb(from->Diffuse())
-                                                                             : kGrey;
+    made.colour =
+        from->Element() && from->Element()->HasElement("diffuse") ? rgb(from->Diffuse()) : kGrey;
     made.opacity = 1.0F - visual.Transparency();
     const sdf::Pbr* pbr = from->PbrMaterial();
     const sdf::PbrWorkflow* metal =
@@ -188,7 +189,8 @@ class SdfReader {
     if (metal != nullptr && !metal->AlbedoMap().empty()) {
       const std::string file = find_uri(metal->AlbedoMap(), folder_of(from->FilePath()), folders_);
       try {
-        made.texture = file.empty() ? cv::Mat{} : texture_of(cv::imread(file, cv::IMREAD_UNCHANGED));
+        made.texture =
+            file.empty() ? cv::Mat{} : texture_of(cv::imread(file, cv::IMREAD_UNCHANGED));
       } catch (const cv::Exception&) {
         made.texture = cv::Mat{};
       }
@@ -272,8 +274,8 @@ class SdfReader {
       }
       case sdf::GeometryType::CAPSULE: {
         const auto& capsule = *geometry.CapsuleShape();
-        return add_ellipsoid(part, {capsule.Radius(), capsule.Radius(),
-                                    0.5 * capsule.Length() + capsule.Radius()});
+        return add_ellipsoid(
+            part, {capsule.Radius(), capsule.Radius(), 0.5 * capsule.Length() + capsule.Radius()});
       }
       default:
         return false;

@@ -143,8 +143,8 @@ void for_each_part(const Scene& scene, double bottom_m, double top_m, const Take
 int piece_of(const cv::Mat& open, const cv::Mat& pieces, const cv::Mat& stats,
              const std::optional<Cell>& inside) {
   if (inside) {
-    const bool is_in = inside->x >= 0 && inside->y >= 0 && inside->x < open.cols &&
-                       inside->y < open.rows;
+    const bool is_in =
+        inside->x >= 0 && inside->y >= 0 && inside->x < open.cols && inside->y < open.rows;
     return is_in ? pieces.at<std::int32_t>(inside->y, inside->x) : 0;
   }
   int best = 0;

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse_map_nav/scene/furniture_meshes.hpp"
-
 #include "coarse_map_nav/data/random.hpp"
+#include "coarse_map_nav/scene/furniture_meshes.hpp"
 #include "coarse_map_nav/scene/mesh_reader.hpp"
 #include "coarse_map_nav/scene/zip_archive.hpp"
 
@@ -91,9 +90,8 @@ void set(Article& article, const std::string& key, const std::string& value) {
   } else if (key == "category") {
     article.category = value;
   } else if (key == "model") {
-    article.model = value.substr(value.find_first_not_of('/') == std::string::npos
-                                     ? 0
-                                     : value.find_first_not_of('/'));
+    article.model = value.substr(
+        value.find_first_not_of('/') == std::string::npos ? 0 : value.find_first_not_of('/'));
   } else if (key == "depth") {
     article.size_m.x() = kCentimetre * number_of(value);
   } else if (key == "width") {
@@ -214,8 +212,9 @@ class SweetHomeFurniture : public FurnitureMeshes {
     const Eigen::Vector3d scale = size.cwiseQuotient(box.sizes().cwiseMax(1e-6));
     const Eigen::Vector3d foot{box.center().x(), box.center().y(), box.min().z()};
     Scene made;
-    add(made, mesh, Eigen::Translation3d{0.0, 0.0, elevation_m} * Eigen::Scaling(scale) *
-                        Eigen::Translation3d{-foot});
+    add(made, mesh,
+        Eigen::Translation3d{0.0, 0.0, elevation_m} * Eigen::Scaling(scale) *
+            Eigen::Translation3d{-foot});
     return made;
   }
 

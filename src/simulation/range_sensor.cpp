@@ -31,8 +31,8 @@ RangeScan RangeSensor::measure(const World& world, const Pose2& T_world_robot, d
   std::vector<double> ranges_m;
   ranges_m.reserve(directions_.size());
   for (const Point2 d : directions_) {
-    ranges_m.push_back(world.cast(
-        T_world_sensor.position(), {c * d.x - s * d.y, s * d.x + c * d.y}, params_.range_max_m));
+    ranges_m.push_back(world.cast(T_world_sensor.position(), {c * d.x - s * d.y, s * d.x + c * d.y},
+                                  params_.range_max_m));
   }
   return read(ranges_m, layout_.T_robot_sensor, stamp_s);
 }

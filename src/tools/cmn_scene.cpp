@@ -79,10 +79,9 @@ cv::Mat seen_from_above(const cmn::Scene& scene, const cmn::CoarseMap& body, dou
   const double width_m = body.width() * body.resolution();
   const double height_m = body.height() * body.resolution();
   const double scale = 1400.0 / std::max(width_m, height_m);
-  cmn::ColorCameraParams params = camera(static_cast<int>(width_m * scale),
-                                         static_cast<int>(height_m * scale),
-                                         2.0 * std::atan(0.5 * width_m / kHigh_m) * 180.0 / cmn::kPi,
-                                         2);
+  cmn::ColorCameraParams params =
+      camera(static_cast<int>(width_m * scale), static_cast<int>(height_m * scale),
+             2.0 * std::atan(0.5 * width_m / kHigh_m) * 180.0 / cmn::kPi, 2);
   params.shadow_lights = 0;
   open->lights.assign(1, {});
   open->lights[0].is_sun = true;
@@ -124,8 +123,8 @@ po::options_description options() {
                                             "where to look to [deg]")(
       "height", po::value<double>()->default_value(0.6), "of the cameras [m]")(
       "tilt", po::value<double>()->default_value(10.0), "of the cameras, downwards [deg]")(
-      "seed", po::value<std::uint32_t>()->default_value(1), "of the place that is drawn, and noise")(
-      "boxes", "houses without meshes of furniture");
+      "seed", po::value<std::uint32_t>()->default_value(1),
+      "of the place that is drawn, and noise")("boxes", "houses without meshes of furniture");
   return options;
 }
 

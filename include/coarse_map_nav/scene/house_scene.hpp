@@ -12,9 +12,9 @@
 
 namespace cmn {
 
-/// Walls, floors, ceilings, doors that stand open, windows, a lamp in every room, and the furniture:
-/// of `meshes` what fits, else (or with none) its boxes and cylinders. Colours, patterns and meshes
-/// are drawn from the seed. The frame is the house's, the floor at height 0.
+/// Walls, floors, ceilings, doors that stand open, windows, a lamp in every room, and the
+/// furniture: of `meshes` what fits, else (or with none) its boxes and cylinders. Colours, patterns
+/// and meshes are drawn from the seed. The frame is the house's, the floor at height 0.
 Scene house_scene(const House& house, std::uint32_t seed, FurnitureMeshes* meshes = nullptr);
 
 }  // namespace cmn

@@ -34,8 +34,8 @@ struct Triangle {
 
 /// A lamp without extent, or the sun.
 ///
-/// On what faces it at distance d a lamp throws `strength` / (f0 + f1 d + f2 d^2), d in metres and f
-/// the `falloff`, within the cone around its direction; the sun throws `strength`.
+/// On what faces it at distance d a lamp throws `strength` / (f0 + f1 d + f2 d^2), d in metres and
+/// f the `falloff`, within the cone around its direction; the sun throws `strength`.
 struct Light {
   bool is_sun = false;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< [m]; not of the sun

@@ -18,8 +18,8 @@ namespace cmn {
 
 struct SceneWorldParams {
   double resolution_m = 0.05;
-  double clear_m = 0.02;         ///< what is lower does not stop the robot
-  double robot_height_m = 0.6;   ///< nor what hangs higher; LoCoBot's mast
+  double clear_m = 0.02;                            ///< what is lower does not stop the robot
+  double robot_height_m = 0.6;                      ///< nor what hangs higher; LoCoBot's mast
   std::string furniture_folder = kFurnitureFolder;  ///< for houses; empty: boxes
 };
 
