@@ -17,12 +17,12 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const Scene> /*scene*/) { refuse(); }
+std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const MeshScene> /*scene*/) { refuse(); }
 
 std::unique_ptr<FurnitureMeshes> open_furniture(const std::string& /*folder*/) { refuse(); }
 
-Scene read_sdf(const std::string& /*path*/, std::vector<std::string>& /*warnings*/,
-               SdfPart /*part*/) {
+MeshScene read_sdf(const std::string& /*path*/, std::vector<std::string>& /*warnings*/,
+                   SdfPart /*part*/) {
   refuse();
 }
 

@@ -39,7 +39,8 @@ CameraRays::CameraRays(const CameraModel& camera, int samples) {
   rays_.resize(directions_.size());
 }
 
-const std::vector<Ray>& CameraRays::from(const Eigen::Isometry3d& T_world_camera, float reach) {
+const std::vector<SceneRay>& CameraRays::from(const Eigen::Isometry3d& T_world_camera,
+                                              float reach) {
   const Eigen::Matrix3f turn = T_world_camera.linear().cast<float>();
   const Eigen::Vector3f origin = T_world_camera.translation().cast<float>();
   for (std::size_t i = 0; i < rays_.size(); ++i) {

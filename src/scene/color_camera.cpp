@@ -80,7 +80,7 @@ ColorCamera::ColorCamera(const ColorCameraParams& params, std::uint32_t seed)
       rays_{camera_, params.samples},
       rng_{seed + 1ULL} {}
 
-void ColorCamera::choose_lamps(const Scene& scene, const Eigen::Vector3f& eye) {
+void ColorCamera::choose_lamps(const MeshScene& scene, const Eigen::Vector3f& eye) {
   std::vector<const Light*> lights;
   for (const Light& light : scene.lights) {
     lights.push_back(&light);
@@ -104,7 +104,7 @@ void ColorCamera::choose_lamps(const Scene& scene, const Eigen::Vector3f& eye) {
   }
 }
 
-void ColorCamera::light(const Scene& scene, std::size_t ray, const Eigen::Vector3f& point,
+void ColorCamera::light(const MeshScene& scene, std::size_t ray, const Eigen::Vector3f& point,
                         const Eigen::Vector3f& normal) {
   shaded_[ray] = scene.ambient * (0.8F + 0.2F * normal.z());
   std::array<Eigen::Vector3f, kMostLights> strengths;
@@ -119,7 +119,7 @@ void ColorCamera::light(const Scene& scene, std::size_t ray, const Eigen::Vector
   const Eigen::Vector3f lifted = point + kLift_m * normal;
   for (int shadow = 0; shadow < params_.shadow_lights; ++shadow) {
     const auto brightest = std::max_element(brightness.begin(), brightness.end());
-    if (*brightest < kFaint * shaded_[ray].sum()) {
+    if (*brightest <= kFaint * shaded_[ray].sum()) {  // 0 as well: there are no more lamps
       break;
     }
     const auto i = static_cast<std::size_t>(brightest - brightness.begin());
@@ -134,8 +134,8 @@ void ColorCamera::light(const Scene& scene, std::size_t ray, const Eigen::Vector
   }
 }
 
-void ColorCamera::shade(const RayCaster& caster, const std::vector<Ray>& rays) {
-  const Scene& scene = caster.scene();
+void ColorCamera::shade(const RayCaster& caster, const std::vector<SceneRay>& rays) {
+  const MeshScene& scene = caster.scene();
   shaded_.resize(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits_[i].is_hit()) {
@@ -171,7 +171,8 @@ float ColorCamera::exposure(const cv::Mat& linear) const {
 }
 
 cv::Mat ColorCamera::take(const RayCaster& caster, const Eigen::Isometry3d& T_world_camera) {
-  const std::vector<Ray>& rays = rays_.from(T_world_camera, std::numeric_limits<float>::infinity());
+  const std::vector<SceneRay>& rays =
+      rays_.from(T_world_camera, std::numeric_limits<float>::infinity());
   caster.cast(rays, hits_);
   choose_lamps(caster.scene(), T_world_camera.translation().cast<float>());
   shade(caster, rays);

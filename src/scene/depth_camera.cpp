@@ -24,7 +24,7 @@ constexpr std::array<int, 2> kStripeWidth{2, 9};  ///< [pixels] least, greatest 
 constexpr float kStripeNoise = 6.0F;
 
 /// How much infrared light a surface gives back.
-float reflectance(const Scene& scene, const Hit& hit) {
+float reflectance(const MeshScene& scene, const Hit& hit) {
   const cv::Vec3b c = colour_at(scene, hit);
   const float mean = static_cast<float>(c[0] + c[1] + c[2]) / (3.0F * 255.0F);
   return std::pow(mean, 2.2F);

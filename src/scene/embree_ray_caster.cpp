@@ -41,7 +41,7 @@ bool has_holes(const Material& material) {
 
 /// Triangles that Embree knows together; it counts them from 0.
 struct Part {
-  const Scene* scene = nullptr;
+  const MeshScene* scene = nullptr;
   std::vector<std::uint32_t> triangles;  ///< indices in the scene
 };
 
@@ -64,7 +64,7 @@ void filter_holes(const RTCFilterFunctionNArguments* arguments) {
 
 class EmbreeRayCaster : public RayCaster {
  public:
-  explicit EmbreeRayCaster(std::shared_ptr<const Scene> scene)
+  explicit EmbreeRayCaster(std::shared_ptr<const MeshScene> scene)
       : scene_{std::move(scene)}, device_{rtcNewDevice("threads=1,set_affinity=0")} {
     if (!device_) {
       throw std::runtime_error("Embree does not start: error " +
@@ -88,7 +88,7 @@ class EmbreeRayCaster : public RayCaster {
     }
   }
 
-  void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const override {
+  void cast(const std::vector<SceneRay>& rays, std::vector<Hit>& hits) const override {
     hits.resize(rays.size());
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
       RTCRayHit8 packet;
@@ -111,7 +111,7 @@ class EmbreeRayCaster : public RayCaster {
     }
   }
 
-  void find_blocked(const std::vector<Ray>& rays,
+  void find_blocked(const std::vector<SceneRay>& rays,
                     std::vector<std::uint8_t>& is_blocked) const override {
     is_blocked.resize(rays.size());
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
@@ -127,15 +127,15 @@ class EmbreeRayCaster : public RayCaster {
     }
   }
 
-  const Scene& scene() const override { return *scene_; }
+  const MeshScene& scene() const override { return *scene_; }
 
  private:
   /// The rays from `first` on that fit into a packet; returns how many.
   static std::size_t fill(RTCRay8& packet, std::array<int, kPacket>& valid,
-                          const std::vector<Ray>& rays, std::size_t first) {
+                          const std::vector<SceneRay>& rays, std::size_t first) {
     const std::size_t count = std::min<std::size_t>(kPacket, rays.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const Ray& ray = rays[first + i];
+      const SceneRay& ray = rays[first + i];
       valid[i] = -1;
       packet.org_x[i] = ray.origin.x();
       packet.org_y[i] = ray.origin.y();
@@ -186,7 +186,7 @@ class EmbreeRayCaster : public RayCaster {
     }
   }
 
-  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const MeshScene> scene_;
   Device device_;
   EmbreeScene embree_scene_;
   Part solid_;
@@ -196,7 +196,7 @@ class EmbreeRayCaster : public RayCaster {
 
 }  // namespace
 
-std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const Scene> scene) {
+std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const MeshScene> scene) {
   return std::make_unique<EmbreeRayCaster>(std::move(scene));
 }
 

@@ -14,7 +14,7 @@ constexpr float kBelowCeiling_m = 0.3F;
 /// with its face to the free side.
 class WallRow {
  public:
-  WallRow(Scene& scene, const CoarseMap& map, float height, std::uint32_t material)
+  WallRow(MeshScene& scene, const CoarseMap& map, float height, std::uint32_t material)
       : scene_{scene}, map_{map}, height_{height}, material_{material} {}
 
   void add(bool is_swapped) const {
@@ -52,7 +52,7 @@ class WallRow {
         material_);
   }
 
-  Scene& scene_;
+  MeshScene& scene_;
   const CoarseMap& map_;
   float height_;
   std::uint32_t material_;
@@ -94,7 +94,7 @@ std::vector<Rectangle> rectangles_of(const Grid<std::uint8_t>& grid, std::uint8_
   return rectangles;
 }
 
-void add_lamps(Scene& scene, const Eigen::AlignedBox3f& area, double spacing_m) {
+void add_lamps(MeshScene& scene, const Eigen::AlignedBox3f& area, double spacing_m) {
   const Eigen::Vector3f size = area.sizes();
   const auto count = [&](float length) {
     return std::clamp(static_cast<int>(std::lround(length / spacing_m)), 1, 64);
@@ -111,8 +111,8 @@ void add_lamps(Scene& scene, const Eigen::AlignedBox3f& area, double spacing_m) 
   }
 }
 
-Scene extrude(const CoarseMap& map, const ExtrusionParams& params) {
-  Scene grid;
+MeshScene extrude(const CoarseMap& map, const ExtrusionParams& params) {
+  MeshScene grid;
   const auto height = static_cast<float>(params.height_m);
   const std::uint32_t wall = grid.add_material({"wall", {0.82F, 0.80F, 0.76F}, {}});
   const std::uint32_t floor = grid.add_material({"floor", {0.55F, 0.45F, 0.36F}, {}});
@@ -135,7 +135,7 @@ Scene extrude(const CoarseMap& map, const ExtrusionParams& params) {
     }
   }
   add_lamps(grid, grid.bounds());
-  Scene scene;
+  MeshScene scene;
   const Pose2& T = map.T_map_grid();
   add(scene, grid,
       Eigen::Affine3d{Eigen::Translation3d{T.x, T.y, 0.0} *

@@ -31,7 +31,7 @@ class HouseBuilder {
   HouseBuilder(const House& house, std::uint32_t seed, FurnitureMeshes* meshes)
       : house_{house}, rng_{seed}, meshes_{meshes} {}
 
-  Scene build() {
+  MeshScene build() {
     const std::uint32_t wall = scene_.add_material({"wall", pale(), {}});
     for (const Wall& block : house_.walls) {
       add_box(scene_, point(block.area.x0, block.area.y0, block.bottom_m),
@@ -133,12 +133,12 @@ class HouseBuilder {
                                         Eigen::AngleAxisd{T.yaw, Eigen::Vector3d::UnitZ()}};
     if (meshes_ != nullptr) {
       std::mt19937_64 rng{seed_of(piece)};
-      if (const std::optional<Scene> mesh = meshes_->fit(piece, rng)) {
+      if (const std::optional<MeshScene> mesh = meshes_->fit(piece, rng)) {
         add(scene_, *mesh, T_house_piece);
         return;
       }
     }
-    Scene boxes;
+    MeshScene boxes;
     const std::uint32_t material = boxes.add_material({piece.name, paint_of(piece.name), {}});
     for (const FurniturePart& part : piece.parts) {
       const Eigen::Vector3f low = point(part.area.x0, part.area.y0, part.bottom_m);
@@ -170,14 +170,14 @@ class HouseBuilder {
   const House& house_;
   std::mt19937_64 rng_;
   FurnitureMeshes* meshes_;
-  Scene scene_;
+  MeshScene scene_;
   std::map<std::pair<int, std::string>, std::uint64_t> seeds_;  ///< by room and kind
   std::map<std::string, Eigen::Vector3f> paints_;               ///< by kind of furniture
 };
 
 }  // namespace
 
-Scene house_scene(const House& house, std::uint32_t seed, FurnitureMeshes* meshes) {
+MeshScene house_scene(const House& house, std::uint32_t seed, FurnitureMeshes* meshes) {
   return HouseBuilder{house, seed, meshes}.build();
 }
 

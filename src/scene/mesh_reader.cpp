@@ -179,7 +179,7 @@ Material material_of(const Reading& reading, const aiScene& read, const aiMateri
 }
 
 /// Adds one of assimp's meshes; returns how many of its triangles were broken.
-std::size_t add_mesh(Scene& scene, const aiMesh& mesh) {
+std::size_t add_mesh(MeshScene& scene, const aiMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(scene.vertices.size());
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D& p = mesh.mVertices[i];
@@ -231,7 +231,7 @@ bool is_y_up(const std::string& path) {
   return ending == ".dae" || ending == ".gltf" || ending == ".glb";
 }
 
-Scene read_with(const Reading& reading, Assimp::Importer& importer) {
+MeshScene read_with(const Reading& reading, Assimp::Importer& importer) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* read = importer.ReadFile(
@@ -249,7 +249,7 @@ Scene read_with(const Reading& reading, Assimp::Importer& importer) {
                              " triangles are more than the " + std::to_string(kMostTriangles) +
                              " that a mesh may have");
   }
-  Scene part;
+  MeshScene part;
   for (unsigned i = 0; i < read->mNumMaterials; ++i) {
     part.add_material(material_of(reading, *read, *read->mMaterials[i]));
   }
@@ -266,14 +266,14 @@ Scene read_with(const Reading& reading, Assimp::Importer& importer) {
   if (!is_y_up(reading.path)) {
     return part;
   }
-  Scene upright;
+  MeshScene upright;
   add(upright, part, Eigen::Affine3d{Eigen::AngleAxisd{0.5 * EIGEN_PI, Eigen::Vector3d::UnitX()}});
   return upright;
 }
 
 }  // namespace
 
-Scene read_mesh(const std::string& path, std::vector<std::string>& warnings) {
+MeshScene read_mesh(const std::string& path, std::vector<std::string>& warnings) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) {
@@ -287,8 +287,8 @@ Scene read_mesh(const std::string& path, std::vector<std::string>& warnings) {
   return read_with({files, path, path, warnings}, importer);
 }
 
-Scene read_mesh(const ZipArchive& archive, const std::string& file,
-                std::vector<std::string>& warnings) {
+MeshScene read_mesh(const ZipArchive& archive, const std::string& file,
+                    std::vector<std::string>& warnings) {
   if (!archive.contains(file)) {
     throw std::runtime_error(archive.path() + ": no " + file + " in it");
   }

@@ -11,7 +11,8 @@ Eigen::Vector3f towards(const Eigen::Vector3f& normal, const Eigen::Vector3f& di
 
 }  // namespace
 
-Eigen::Vector3f face_normal(const Scene& scene, const Hit& hit, const Eigen::Vector3f& direction) {
+Eigen::Vector3f face_normal(const MeshScene& scene, const Hit& hit,
+                            const Eigen::Vector3f& direction) {
   const Triangle& triangle = scene.triangles[hit.triangle];
   const Eigen::Vector3f& a = scene.vertices[triangle.corners[0]];
   const Eigen::Vector3f& b = scene.vertices[triangle.corners[1]];
@@ -19,7 +20,8 @@ Eigen::Vector3f face_normal(const Scene& scene, const Hit& hit, const Eigen::Vec
   return towards((b - a).cross(c - a).normalized(), direction);
 }
 
-Eigen::Vector3f normal_at(const Scene& scene, const Hit& hit, const Eigen::Vector3f& direction) {
+Eigen::Vector3f normal_at(const MeshScene& scene, const Hit& hit,
+                          const Eigen::Vector3f& direction) {
   const Triangle& triangle = scene.triangles[hit.triangle];
   const Eigen::Vector3f smooth = (1.0F - hit.u - hit.v) * scene.normals[triangle.corners[0]] +
                                  hit.u * scene.normals[triangle.corners[1]] +

@@ -16,7 +16,7 @@ std::uint32_t count_of(const std::vector<Eigen::Vector3f>& vertices) {
   return static_cast<std::uint32_t>(vertices.size());
 }
 
-void add_vertex(Scene& scene, const Eigen::Vector3f& p, const Eigen::Vector3f& normal,
+void add_vertex(MeshScene& scene, const Eigen::Vector3f& p, const Eigen::Vector3f& normal,
                 const Eigen::Vector2f& texture_point) {
   scene.vertices.push_back(p);
   scene.normals.push_back(normal);
@@ -24,7 +24,7 @@ void add_vertex(Scene& scene, const Eigen::Vector3f& p, const Eigen::Vector3f& n
 }
 
 /// Joins the rows of a lattice of (rows + 1) x (kSegments + 1) vertices that begins at `first`.
-void join_rows(Scene& scene, std::uint32_t first, std::uint32_t rows, std::uint32_t material) {
+void join_rows(MeshScene& scene, std::uint32_t first, std::uint32_t rows, std::uint32_t material) {
   constexpr std::uint32_t kStride = kSegments + 1;
   for (std::uint32_t row = 0; row < rows; ++row) {
     for (std::uint32_t i = 0; i < kSegments; ++i) {
@@ -37,12 +37,12 @@ void join_rows(Scene& scene, std::uint32_t first, std::uint32_t rows, std::uint3
 
 }  // namespace
 
-std::uint32_t Scene::add_material(Material material) {
+std::uint32_t MeshScene::add_material(Material material) {
   materials.push_back(std::move(material));
   return static_cast<std::uint32_t>(materials.size() - 1);
 }
 
-void Scene::add_quad(const std::array<Eigen::Vector3f, 4>& corners, std::uint32_t material) {
+void MeshScene::add_quad(const std::array<Eigen::Vector3f, 4>& corners, std::uint32_t material) {
   const std::uint32_t first = count_of(vertices);
   const std::array<Eigen::Vector2f, 4> points{
       Eigen::Vector2f{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}};
@@ -53,7 +53,7 @@ void Scene::add_quad(const std::array<Eigen::Vector3f, 4>& corners, std::uint32_
   triangles.push_back({{first, first + 2, first + 3}, material});
 }
 
-Eigen::AlignedBox3f Scene::bounds() const {
+Eigen::AlignedBox3f MeshScene::bounds() const {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : vertices) {
     box.extend(p);
@@ -61,7 +61,7 @@ Eigen::AlignedBox3f Scene::bounds() const {
   return box;
 }
 
-void add(Scene& scene, const Scene& part, const Eigen::Affine3d& T_scene_part) {
+void add(MeshScene& scene, const MeshScene& part, const Eigen::Affine3d& T_scene_part) {
   const Eigen::Affine3f T = T_scene_part.cast<float>();
   const Eigen::Matrix3f turn = T_scene_part.linear().inverse().transpose().cast<float>();
   const std::uint32_t first = count_of(scene.vertices);
@@ -86,7 +86,7 @@ void add(Scene& scene, const Scene& part, const Eigen::Affine3d& T_scene_part) {
   }
 }
 
-void add_box(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+void add_box(MeshScene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
              std::uint32_t material) {
   const auto corner = [&](int x, int y, int z) {
     return Eigen::Vector3f{x == 0 ? low.x() : high.x(), y == 0 ? low.y() : high.y(),
@@ -100,7 +100,7 @@ void add_box(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& hi
   scene.add_quad({corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0), corner(0, 0, 0)}, material);
 }
 
-void add_cylinder(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+void add_cylinder(MeshScene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
                   std::uint32_t material) {
   const Eigen::Vector3f middle = 0.5F * (low + high);
   const Eigen::Vector3f half = 0.5F * (high - low);
@@ -128,7 +128,7 @@ void add_cylinder(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3
   }
 }
 
-void add_sphere(Scene& scene, float radius, std::uint32_t material) {
+void add_sphere(MeshScene& scene, float radius, std::uint32_t material) {
   constexpr std::uint32_t kRows = kSegments / 2;
   const std::uint32_t first = count_of(scene.vertices);
   for (std::uint32_t row = 0; row <= kRows; ++row) {

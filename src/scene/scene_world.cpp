@@ -29,7 +29,7 @@ SceneWorld open_house(std::uint32_t seed, const SceneWorldParams& params) {
     }
   }
   world.scene =
-      std::make_shared<const Scene>(house_scene(generate_house(seed), seed, meshes.get()));
+      std::make_shared<const MeshScene>(house_scene(generate_house(seed), seed, meshes.get()));
   if (meshes) {
     world.warnings = meshes->warnings();
   }
@@ -58,10 +58,10 @@ SceneWorld open_scene_world(const std::string& name, const SceneWorldParams& par
   if (const auto seed = house_seed(name)) {
     world = open_house(*seed, params);
   } else if (ending == ".world" || ending == ".sdf") {
-    world.scene = std::make_shared<const Scene>(read_sdf(name, world.warnings));
+    world.scene = std::make_shared<const MeshScene>(read_sdf(name, world.warnings));
   } else {
     world.body = read_map(name);
-    world.scene = std::make_shared<const Scene>(extrude(world.body));
+    world.scene = std::make_shared<const MeshScene>(extrude(world.body));
     return world;
   }
   SliceParams cut;

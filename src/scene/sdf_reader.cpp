@@ -44,7 +44,7 @@ class SdfReader {
   SdfReader(const std::string& path, std::vector<std::string>& warnings, SdfPart part)
       : path_{path}, folders_{model_folders(path)}, warnings_{warnings}, part_{part} {}
 
-  Scene read() {
+  MeshScene read() {
     count_includes(path_, folders_);  // or throws
     sdf::Console::Instance()->SetQuiet(true);
     sdf::ParserConfig config;
@@ -212,7 +212,7 @@ class SdfReader {
       add_mesh(*geometry->MeshShape(), material, T_world_link * *pose);
       return;
     }
-    Scene part;
+    MeshScene part;
     part.add_material(material.value_or(Material{element.Name(), kGrey, {}}));
     if (add_shape(part, *geometry)) {
       add_part(part, T_world_link * *pose);
@@ -221,11 +221,11 @@ class SdfReader {
     }
   }
 
-  static bool add_ellipsoid(Scene& part, const Eigen::Vector3d& radii) {
+  static bool add_ellipsoid(MeshScene& part, const Eigen::Vector3d& radii) {
     if (!radii.allFinite() || radii.minCoeff() <= 0.0) {
       return false;
     }
-    Scene ball;
+    MeshScene ball;
     ball.materials = part.materials;
     add_sphere(ball, 1.0F, 0);
     part.materials.clear();
@@ -233,7 +233,7 @@ class SdfReader {
     return true;
   }
 
-  static bool add_plane(Scene& part, const sdf::Plane& plane) {
+  static bool add_plane(MeshScene& part, const sdf::Plane& plane) {
     const auto& n = plane.Normal();
     const Eigen::Vector3d normal{n.X(), n.Y(), n.Z()};
     const float x = 0.5F * static_cast<float>(plane.Size().X());
@@ -241,7 +241,7 @@ class SdfReader {
     if (!normal.allFinite() || normal.norm() < 1e-9 || !(x > 0.0F && y > 0.0F)) {
       return false;
     }
-    Scene flat;
+    MeshScene flat;
     flat.materials = part.materials;
     flat.add_quad({Eigen::Vector3f{-x, -y, 0.0F}, {x, -y, 0.0F}, {x, y, 0.0F}, {-x, y, 0.0F}}, 0);
     part.materials.clear();
@@ -250,7 +250,7 @@ class SdfReader {
     return true;
   }
 
-  static bool add_shape(Scene& part, const sdf::Geometry& geometry) {
+  static bool add_shape(MeshScene& part, const sdf::Geometry& geometry) {
     Eigen::Vector3f half = Eigen::Vector3f::Zero();
     switch (geometry.Type()) {
       case sdf::GeometryType::PLANE:
@@ -304,7 +304,7 @@ class SdfReader {
     if (!mesh.Submesh().empty()) {
       warn(file, "all of it is read, not its part " + mesh.Submesh() + " alone");
     }
-    const auto [at, is_new] = meshes_.emplace(file, Scene{});
+    const auto [at, is_new] = meshes_.emplace(file, MeshScene{});
     if (is_new) {
       try {
         at->second = read_mesh(file, warnings_);
@@ -317,12 +317,12 @@ class SdfReader {
       add_part(at->second, T);
       return;
     }
-    Scene painted = at->second;
+    MeshScene painted = at->second;
     std::fill(painted.materials.begin(), painted.materials.end(), *material);
     add_part(painted, T);
   }
 
-  void add_part(const Scene& part, const Eigen::Affine3d& T_world_part) {
+  void add_part(const MeshScene& part, const Eigen::Affine3d& T_world_part) {
     if (scene_.triangles.size() + part.triangles.size() > kMostTriangles) {
       throw std::runtime_error(path_ + ": it comes to more than " + std::to_string(kMostTriangles) +
                                " triangles");
@@ -334,13 +334,13 @@ class SdfReader {
   const std::vector<std::string> folders_;
   std::vector<std::string>& warnings_;
   const SdfPart part_;
-  Scene scene_;
-  std::map<std::string, Scene> meshes_;  ///< by file
+  MeshScene scene_;
+  std::map<std::string, MeshScene> meshes_;  ///< by file
 };
 
 }  // namespace
 
-Scene read_sdf(const std::string& path, std::vector<std::string>& warnings, SdfPart part) {
+MeshScene read_sdf(const std::string& path, std::vector<std::string>& warnings, SdfPart part) {
   if (!fs::is_regular_file(path)) {
     throw std::runtime_error(path + ": no such file");
   }

@@ -48,7 +48,7 @@ Polygon clipped(const Polygon& polygon, int axis, double limit, double side) {
 
 /// The part of a triangle within heights. Drawn in by a hair behind its face, so that a wall on the
 /// border of two cells belongs to the one behind it.
-Polygon part_of(const Scene& scene, const Triangle& triangle, double bottom_m, double top_m) {
+Polygon part_of(const MeshScene& scene, const Triangle& triangle, double bottom_m, double top_m) {
   Polygon corners;
   for (const std::uint32_t corner : triangle.corners) {
     corners.push_back(scene.vertices[corner].cast<double>());
@@ -130,7 +130,7 @@ class Raster {
 
 /// Calls `take` with the part of each triangle that lies within heights.
 template <class Take>
-void for_each_part(const Scene& scene, double bottom_m, double top_m, const Take& take) {
+void for_each_part(const MeshScene& scene, double bottom_m, double top_m, const Take& take) {
   for (const Triangle& triangle : scene.triangles) {
     const Polygon part = part_of(scene, triangle, bottom_m, top_m);
     if (!part.empty()) {
@@ -165,7 +165,7 @@ int piece_of(const cv::Mat& open, const cv::Mat& pieces, const cv::Mat& stats,
 
 }  // namespace
 
-CoarseMap slice(const Scene& scene, const SliceParams& params) {
+CoarseMap slice(const MeshScene& scene, const SliceParams& params) {
   const double bottom_m = params.floor_m + params.band.bottom_m;
   const double top_m = params.floor_m + params.band.top_m + kHair_m;
   Eigen::AlignedBox2d area;

@@ -151,7 +151,7 @@ class SweetHomeFurniture : public FurnitureMeshes {
     meshes_.resize(articles_.size());
   }
 
-  std::optional<Scene> fit(const Furniture& piece, std::mt19937_64& rng) override {
+  std::optional<MeshScene> fit(const Furniture& piece, std::mt19937_64& rng) override {
     const Eigen::Vector3d size{piece.size_x_m, piece.size_y_m, piece.size_z_m};
     std::vector<std::size_t> fitting;
     const std::vector<std::string>& names = names_of(piece.name);
@@ -162,7 +162,7 @@ class SweetHomeFurniture : public FurnitureMeshes {
     }
     while (!fitting.empty()) {
       const std::size_t chosen = draw_index(rng, fitting.size());
-      if (const Scene* mesh = mesh_of(fitting[chosen])) {
+      if (const MeshScene* mesh = mesh_of(fitting[chosen])) {
         return stretched(*mesh, size, piece.elevation_m);
       }
       fitting.erase(fitting.begin() + static_cast<std::ptrdiff_t>(chosen));
@@ -187,13 +187,13 @@ class SweetHomeFurniture : public FurnitureMeshes {
   }
 
   /// Null: it cannot be read.
-  const Scene* mesh_of(std::size_t index) {
-    std::optional<Scene>& mesh = meshes_[index];
+  const MeshScene* mesh_of(std::size_t index) {
+    std::optional<MeshScene>& mesh = meshes_[index];
     if (!mesh) {
       const Article& article = articles_[index];
       mesh.emplace();
       try {
-        Scene read = read_mesh(*article.archive, article.model, warnings_);
+        MeshScene read = read_mesh(*article.archive, article.model, warnings_);
         if (read.triangles.size() <= kMostTriangles) {
           // To the frame of a piece of furniture: x to where it faces, z up.
           Eigen::Matrix3d axes;
@@ -207,11 +207,12 @@ class SweetHomeFurniture : public FurnitureMeshes {
     return mesh->triangles.empty() ? nullptr : &*mesh;
   }
 
-  static Scene stretched(const Scene& mesh, const Eigen::Vector3d& size, double elevation_m) {
+  static MeshScene stretched(const MeshScene& mesh, const Eigen::Vector3d& size,
+                             double elevation_m) {
     const Eigen::AlignedBox3d box = mesh.bounds().cast<double>();
     const Eigen::Vector3d scale = size.cwiseQuotient(box.sizes().cwiseMax(1e-6));
     const Eigen::Vector3d foot{box.center().x(), box.center().y(), box.min().z()};
-    Scene made;
+    MeshScene made;
     add(made, mesh,
         Eigen::Translation3d{0.0, 0.0, elevation_m} * Eigen::Scaling(scale) *
             Eigen::Translation3d{-foot});
@@ -220,7 +221,7 @@ class SweetHomeFurniture : public FurnitureMeshes {
 
   std::vector<std::unique_ptr<ZipArchive>> archives_;
   std::vector<Article> articles_;
-  std::vector<std::optional<Scene>> meshes_;  ///< of the articles; without triangles: unusable
+  std::vector<std::optional<MeshScene>> meshes_;  ///< of the articles; without triangles: unusable
   std::vector<std::string> warnings_;
 };
 

@@ -19,7 +19,7 @@ int repeated(float coordinate, int count) {
 
 }  // namespace
 
-cv::Vec4b texel_at(const Scene& scene, const Hit& hit) {
+cv::Vec4b texel_at(const MeshScene& scene, const Hit& hit) {
   const Triangle& triangle = scene.triangles[hit.triangle];
   const Eigen::Vector2f p = (1.0F - hit.u - hit.v) * scene.texture_points[triangle.corners[0]] +
                             hit.u * scene.texture_points[triangle.corners[1]] +
@@ -29,7 +29,7 @@ cv::Vec4b texel_at(const Scene& scene, const Hit& hit) {
   return texture.at<cv::Vec4b>(row, repeated(p.x(), texture.cols));
 }
 
-cv::Vec3b colour_at(const Scene& scene, const Hit& hit) {
+cv::Vec3b colour_at(const MeshScene& scene, const Hit& hit) {
   const Material& material = scene.materials[scene.triangles[hit.triangle].material];
   if (!material.texture.empty()) {
     const cv::Vec4b texel = texel_at(scene, hit);

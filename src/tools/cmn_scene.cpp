@@ -63,8 +63,8 @@ cmn::ColorCameraParams camera(int width, int height, double view_deg, int sample
 }
 
 /// From high above; what is higher than `cut_m` is taken away.
-cv::Mat seen_from_above(const cmn::Scene& scene, const cmn::CoarseMap& body, double cut_m) {
-  auto open = std::make_shared<cmn::Scene>(scene);
+cv::Mat seen_from_above(const cmn::MeshScene& scene, const cmn::CoarseMap& body, double cut_m) {
+  auto open = std::make_shared<cmn::MeshScene>(scene);
   open->triangles.clear();
   for (const cmn::Triangle& triangle : scene.triangles) {
     double lowest = 1e9;

@@ -11,15 +11,15 @@
 
 namespace cmn {
 
-/// A closed box, 4 m x 5 m x 2.5 m, with a corner at the origin.
-inline Scene box_room() {
-  Scene scene;
-  add_box(scene, {0, 0, 0}, {4, 5, 2.5F}, scene.add_material({"wall", {0.8F, 0.8F, 0.8F}, {}}));
+/// A closed box, 4 m x 5 m x 2.5 m, with a corner at the origin. Its faces look inwards.
+inline MeshScene box_room() {
+  MeshScene scene;
+  add_box(scene, {4, 5, 2.5F}, {0, 0, 0}, scene.add_material({"wall", {0.8F, 0.8F, 0.8F}, {}}));
   return scene;
 }
 
-inline std::unique_ptr<RayCaster> caster_of(const Scene& scene) {
-  return make_ray_caster(std::make_shared<const Scene>(scene));
+inline std::unique_ptr<RayCaster> caster_of(const MeshScene& scene) {
+  return make_ray_caster(std::make_shared<const MeshScene>(scene));
 }
 
 /// A camera that looks along the scene's x axis.

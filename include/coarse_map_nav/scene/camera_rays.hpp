@@ -24,7 +24,7 @@ class CameraRays {
   explicit CameraRays(const CameraModel& camera, int samples = 1);
 
   /// Ways along the rays are depths along the optical axis.
-  const std::vector<Ray>& from(const Eigen::Isometry3d& T_world_camera, float reach);
+  const std::vector<SceneRay>& from(const Eigen::Isometry3d& T_world_camera, float reach);
   /// Of a ray: row by row from the upper left.
   std::size_t pixel_of(std::size_t ray) const { return pixels_[ray]; }
   std::size_t size() const { return pixels_.size(); }
@@ -32,7 +32,7 @@ class CameraRays {
  private:
   std::vector<std::size_t> pixels_;
   std::vector<Eigen::Vector3f> directions_;  ///< in the optical frame, z = 1
-  std::vector<Ray> rays_;
+  std::vector<SceneRay> rays_;
 };
 
 }  // namespace cmn

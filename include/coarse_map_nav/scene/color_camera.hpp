@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A colour camera in a Scene.
+/// A colour camera in a MeshScene.
 #pragma once
 
 #include "coarse_map_nav/data/camera.hpp"
@@ -61,11 +61,11 @@ class ColorCamera {
     const Light* light;
     std::vector<std::size_t> lit;            ///< indices of camera rays
     std::vector<Eigen::Vector3f> strengths;  ///< on each of them: RGB, linear
-    std::vector<Ray> rays;                   ///< from the light to each of them
+    std::vector<SceneRay> rays;              ///< from the light to each of them
   };
-  void choose_lamps(const Scene& scene, const Eigen::Vector3f& eye);
-  void shade(const RayCaster& caster, const std::vector<Ray>& rays);
-  void light(const Scene& scene, std::size_t ray, const Eigen::Vector3f& point,
+  void choose_lamps(const MeshScene& scene, const Eigen::Vector3f& eye);
+  void shade(const RayCaster& caster, const std::vector<SceneRay>& rays);
+  void light(const MeshScene& scene, std::size_t ray, const Eigen::Vector3f& point,
              const Eigen::Vector3f& normal);
   float exposure(const cv::Mat& linear) const;
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A stereo depth camera in a Scene, with the faults of a RealSense.
+/// A stereo depth camera in a MeshScene, with the faults of a RealSense.
 #pragma once
 
 #include "coarse_map_nav/data/camera.hpp"
@@ -81,8 +81,8 @@ class DepthCamera {
   CameraModel camera_;
   CameraRays rays_;
   cv::RNG rng_;
-  const std::vector<Ray>* cast_rays_ = nullptr;  ///< of the last cast
-  std::vector<Hit> hits_;                        ///< likewise
+  const std::vector<SceneRay>* cast_rays_ = nullptr;  ///< of the last cast
+  std::vector<Hit> hits_;                             ///< likewise
 };
 
 }  // namespace cmn

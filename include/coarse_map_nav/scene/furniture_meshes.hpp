@@ -25,7 +25,7 @@ class FurnitureMeshes {
   /// A mesh of the piece's kind in the piece's frame, stretched to fill its footprint and height
   /// exactly; one drawn of those that need little stretching. None: nothing fits. Meshes stay in
   /// memory once read.
-  virtual std::optional<Scene> fit(const Furniture& piece, std::mt19937_64& rng) = 0;
+  virtual std::optional<MeshScene> fit(const Furniture& piece, std::mt19937_64& rng) = 0;
   /// What went wrong so far, a sentence each.
   virtual const std::vector<std::string>& warnings() const = 0;
 };

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Mesh files -> Scene, by Open Asset Import (COLLADA, OBJ, glTF, STL, ...).
+/// Mesh files -> MeshScene, by Open Asset Import (COLLADA, OBJ, glTF, STL, ...).
 #pragma once
 
 #include "coarse_map_nav/scene/scene.hpp"
@@ -19,10 +19,10 @@ namespace cmn {
 /// does. What can be survived (a texture that is missing or unreadable, broken triangles) is added
 /// to `warnings`, a sentence each. Throws std::runtime_error, naming the file, when no triangle
 /// comes of it.
-Scene read_mesh(const std::string& path, std::vector<std::string>& warnings);
+MeshScene read_mesh(const std::string& path, std::vector<std::string>& warnings);
 
 /// The same of a file inside a zip archive; so are its textures.
-Scene read_mesh(const ZipArchive& archive, const std::string& file,
-                std::vector<std::string>& warnings);
+MeshScene read_mesh(const ZipArchive& archive, const std::string& file,
+                    std::vector<std::string>& warnings);
 
 }  // namespace cmn

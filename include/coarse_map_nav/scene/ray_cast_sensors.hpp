@@ -51,7 +51,7 @@ class RayCastSensors : public SceneSensors {
   RangeSensor lidar_;
   DepthCamera depth_;
   ColorCamera color_;
-  std::vector<Ray> beams_;
+  std::vector<SceneRay> beams_;
   std::vector<Hit> hits_;
 };
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rays into a Scene.
+/// Rays into a MeshScene.
 #pragma once
 
 #include "coarse_map_nav/scene/scene.hpp"
@@ -15,7 +15,7 @@
 namespace cmn {
 
 /// A half line. `direction` need not have length 1: ways along it are in units of its length.
-struct Ray {
+struct SceneRay {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;
   float reach = std::numeric_limits<float>::infinity();
@@ -37,20 +37,21 @@ class RayCaster {
  public:
   virtual ~RayCaster() = default;
   /// The first hit of every ray; `hits` gets the size of `rays`.
-  virtual void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const = 0;
+  virtual void cast(const std::vector<SceneRay>& rays, std::vector<Hit>& hits) const = 0;
   /// For every ray 1 when anything lies within its reach, else 0.
-  virtual void find_blocked(const std::vector<Ray>& rays,
+  virtual void find_blocked(const std::vector<SceneRay>& rays,
                             std::vector<std::uint8_t>& is_blocked) const = 0;
-  virtual const Scene& scene() const = 0;
+  virtual const MeshScene& scene() const = 0;
 };
 
 /// By Intel Embree. Throws std::runtime_error with the reason, and how to get it, in a build
 /// without the 3D simulator.
-std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const Scene> scene);
+std::unique_ptr<RayCaster> make_ray_caster(std::shared_ptr<const MeshScene> scene);
 
 /// The unit normal at a hit, towards where the ray came from.
-Eigen::Vector3f normal_at(const Scene& scene, const Hit& hit, const Eigen::Vector3f& direction);
+Eigen::Vector3f normal_at(const MeshScene& scene, const Hit& hit, const Eigen::Vector3f& direction);
 /// The same of the triangle itself, without the smoothing of `normals`.
-Eigen::Vector3f face_normal(const Scene& scene, const Hit& hit, const Eigen::Vector3f& direction);
+Eigen::Vector3f face_normal(const MeshScene& scene, const Hit& hit,
+                            const Eigen::Vector3f& direction);
 
 }  // namespace cmn

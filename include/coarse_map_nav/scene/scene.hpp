@@ -47,7 +47,7 @@ struct Light {
 
 /// Triangles in one frame, z up [m]. A scene that is read is the world's; one part of a world (a
 /// model, a piece of furniture) is a scene as well.
-struct Scene {
+struct MeshScene {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;         ///< of the vertices, unit; zero: the triangle's own
   std::vector<Eigen::Vector2f> texture_points;  ///< of the vertices; (0, 0) is the lower left
@@ -64,15 +64,15 @@ struct Scene {
 };
 
 /// Puts a part into a scene: shear and scale are allowed, mirroring too.
-void add(Scene& scene, const Scene& part, const Eigen::Affine3d& T_scene_part);
+void add(MeshScene& scene, const MeshScene& part, const Eigen::Affine3d& T_scene_part);
 
 /// A box from `low` to `high`, each face covered once by the texture.
-void add_box(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+void add_box(MeshScene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
              std::uint32_t material);
 /// An upright elliptic cylinder that fills the box from `low` to `high`.
-void add_cylinder(Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+void add_cylinder(MeshScene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high,
                   std::uint32_t material);
 /// A sphere about the origin of the scene's frame.
-void add_sphere(Scene& scene, float radius, std::uint32_t material);
+void add_sphere(MeshScene& scene, float radius, std::uint32_t material);
 
 }  // namespace cmn

@@ -25,7 +25,7 @@ struct SceneWorldParams {
 
 /// A world to look around in, and the same as a map to drive in.
 struct SceneWorld {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const MeshScene> scene;
   CoarseMap body;                     ///< free: where a robot's body can be
   std::vector<std::string> warnings;  ///< what was survived, a sentence each
 };

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Gazebo worlds (.world, .sdf) -> Scene.
+/// Gazebo worlds (.world, .sdf) -> MeshScene.
 #pragma once
 
 #include "coarse_map_nav/scene/scene.hpp"
@@ -24,7 +24,7 @@ enum class SdfPart {
 /// lights keeps none. What can be survived (a model, mesh or texture that is missing or
 /// broken, a geometry of another kind) is added to `warnings`, a sentence each. Throws
 /// std::runtime_error, naming the file, when it is no SDF or nothing in it has a surface.
-Scene read_sdf(const std::string& path, std::vector<std::string>& warnings,
-               SdfPart part = SdfPart::kVisual);
+MeshScene read_sdf(const std::string& path, std::vector<std::string>& warnings,
+                   SdfPart part = SdfPart::kVisual);
 
 }  // namespace cmn

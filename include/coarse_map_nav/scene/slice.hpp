@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Scene -> CoarseMap: where a robot on the floor can go.
+/// MeshScene -> CoarseMap: where a robot on the floor can go.
 #pragma once
 
 #include "coarse_map_nav/data/coarse_map.hpp"
@@ -28,6 +28,6 @@ struct SliceParams {
 ///
 /// The grid's axes are the scene's, its cells' borders multiples of the resolution. Throws
 /// std::runtime_error when no cell is free or the grid would have more than 64 million cells.
-CoarseMap slice(const Scene& scene, const SliceParams& params);
+CoarseMap slice(const MeshScene& scene, const SliceParams& params);
 
 }  // namespace cmn

@@ -12,10 +12,10 @@
 namespace cmn {
 
 /// The texel at a hit, BGRA, repeating the texture beyond its borders. The material must have one.
-cv::Vec4b texel_at(const Scene& scene, const Hit& hit);
+cv::Vec4b texel_at(const MeshScene& scene, const Hit& hit);
 
 /// BGR in sRGB: the texel where the material has a texture, else the material's colour.
-cv::Vec3b colour_at(const Scene& scene, const Hit& hit);
+cv::Vec3b colour_at(const MeshScene& scene, const Hit& hit);
 
 /// Any picture as a texture: CV_8UC4, BGRA; sides above `longest` are scaled down to it. Empty when
 /// the picture is, or has another depth than 8 or 16 bits.

@@ -16,15 +16,15 @@ ColorCameraParams plain() {
 }
 
 /// A wall ahead, 2 m wide and high at x = 1, lit evenly: a view of 90 degrees just takes it in.
-Scene lit_wall(const cv::Mat& texture) {
-  Scene scene;
+MeshScene lit_wall(const cv::Mat& texture) {
+  MeshScene scene;
   scene.add_quad({Eigen::Vector3f{1, 1, -1}, {1, -1, -1}, {1, -1, 1}, {1, 1, 1}},
                  scene.add_material({"wall", {0.5F, 0.5F, 0.5F}, texture}));
   scene.ambient.setConstant(1.25F);  // 1 on what stands upright
   return scene;
 }
 
-cv::Vec3b pixel(const Scene& scene, int row, int column,
+cv::Vec3b pixel(const MeshScene& scene, int row, int column,
                 const ColorCameraParams& params = plain()) {
   return ColorCamera{params, 1}
       .take(*caster_of(scene), looking_ahead(0, 0, 0))
@@ -35,7 +35,7 @@ TEST(ColorCamera, EvenLightGivesBackTheTextureItself) {
   const cv::Mat texture =
       (cv::Mat_<cv::Vec4b>(2, 2) << cv::Vec4b{200, 10, 20, 255}, cv::Vec4b{10, 200, 20, 255},
        cv::Vec4b{10, 20, 200, 255}, cv::Vec4b{90, 90, 90, 255});
-  const Scene scene = lit_wall(texture);
+  const MeshScene scene = lit_wall(texture);
   const auto near = [](cv::Vec3b a, cv::Vec3b b) { return cv::norm(a, b, cv::NORM_INF) <= 2.0; };
   EXPECT_TRUE(near(pixel(scene, 10, 10), {200, 10, 20}));
   EXPECT_TRUE(near(pixel(scene, 10, 70), {10, 200, 20}));
@@ -44,7 +44,7 @@ TEST(ColorCamera, EvenLightGivesBackTheTextureItself) {
 }
 
 TEST(ColorCamera, LampsFadeWithDistanceAndObliqueness) {
-  Scene scene = lit_wall({});
+  MeshScene scene = lit_wall({});
   scene.ambient.setZero();
   Light lamp;
   lamp.position = {0.5F, 0.0F, 0.0F};
@@ -56,7 +56,7 @@ TEST(ColorCamera, LampsFadeWithDistanceAndObliqueness) {
 }
 
 TEST(ColorCamera, ThingsThrowShadowsUnlessTheyAreOff) {
-  Scene scene = lit_wall({});
+  MeshScene scene = lit_wall({});
   scene.ambient.setConstant(0.1F);
   Light lamp;
   lamp.position = {0.2F, 0.8F, 0.0F};
@@ -70,7 +70,7 @@ TEST(ColorCamera, ThingsThrowShadowsUnlessTheyAreOff) {
 }
 
 TEST(ColorCamera, TheSunShinesAsItsDirectionSays) {
-  Scene scene = lit_wall({});
+  MeshScene scene = lit_wall({});
   scene.ambient.setZero();
   Light sun;
   sun.is_sun = true;
@@ -83,7 +83,7 @@ TEST(ColorCamera, TheSunShinesAsItsDirectionSays) {
 }
 
 TEST(ColorCamera, ASpotLightsItsConeOnly) {
-  Scene scene = lit_wall({});
+  MeshScene scene = lit_wall({});
   scene.ambient.setZero();
   Light spot;
   spot.position = {0.0F, 0.0F, 0.0F};
@@ -95,7 +95,7 @@ TEST(ColorCamera, ASpotLightsItsConeOnly) {
 }
 
 TEST(ColorCamera, AutomaticExposureMakesDarkRoomsBright) {
-  Scene scene = lit_wall({});
+  MeshScene scene = lit_wall({});
   scene.ambient.setConstant(0.02F);
   ColorCameraParams params = plain();
   const cv::Vec3b dark = pixel(scene, 40, 40, params);
@@ -105,7 +105,7 @@ TEST(ColorCamera, AutomaticExposureMakesDarkRoomsBright) {
 }
 
 TEST(ColorCamera, TheSameSeedGivesTheSameImages) {
-  const Scene scene = lit_wall({});
+  const MeshScene scene = lit_wall({});
   const auto take = [&](std::uint32_t seed) {
     return ColorCamera{{}, seed}.take(*caster_of(scene), looking_ahead(0, 0, 0));
   };

@@ -25,7 +25,7 @@ DepthCameraParams faultless() {
 }
 
 /// A wall at x = `x`, 20 m wide and high about the origin.
-void add_wall(Scene& scene, float x, float half = 10.0F,
+void add_wall(MeshScene& scene, float x, float half = 10.0F,
               const Eigen::Vector3f& colour = {1, 1, 1}) {
   scene.add_quad(
       {Eigen::Vector3f{x, -half, -half}, {x, half, -half}, {x, half, half}, {x, -half, half}},
@@ -41,7 +41,7 @@ int holes_in(const cv::Mat& depth) {
 }
 
 TEST(DepthCamera, TruthIsTheDepthAlongTheAxis) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 3.0F);
   const cv::Mat depth =
       DepthCamera{faultless(), 1}.truth(*caster_of(scene), looking_ahead(0.5, 0, 0));
@@ -79,7 +79,7 @@ TEST(DepthCamera, NothingAheadIsInfinitelyFarAndAHole) {
 }
 
 TEST(DepthCamera, WhatIsTooNearOrTooFarIsAHole) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 3.0F);
   const auto caster = caster_of(scene);
   DepthCameraParams params = faultless();
@@ -93,7 +93,7 @@ TEST(DepthCamera, WhatIsTooNearOrTooFarIsAHole) {
 
 /// Root of the mean square of the error on a wall at `depth_m`.
 double error_at(double depth_m, const DepthCameraParams& params) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, static_cast<float>(depth_m));
   const cv::Mat depth =
       DepthCamera{params, 7}.take(*caster_of(scene), looking_ahead(0, 0, 0)) - depth_m;
@@ -112,7 +112,7 @@ TEST(DepthCamera, NoiseGrowsWithTheSquareOfTheDepth) {
 TEST(DepthCamera, DepthsComeInSteps) {
   DepthCameraParams params = faultless();
   params.step_m = 0.01;
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 3.02F);
   const float z =
       DepthCamera{params, 1}.take(*caster_of(scene), looking_ahead(0, 0, 0)).at<float>(100, 100);
@@ -120,7 +120,7 @@ TEST(DepthCamera, DepthsComeInSteps) {
 }
 
 TEST(DepthCamera, LeftOfANearThingIsAHole) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 4.0F);
   add_wall(scene, 1.0F, 0.2F);
   DepthCameraParams params = faultless();
@@ -139,7 +139,7 @@ TEST(DepthCamera, DarkFarAndGrazingSurfacesAreHolesMoreOften) {
   DepthCameraParams params = faultless();
   params.faintest = 0.01;
   const auto share = [&](float x, float colour) {
-    Scene scene;
+    MeshScene scene;
     add_wall(scene, x, 10.0F, Eigen::Vector3f::Constant(colour));
     return holes_in(DepthCamera{params, 1}.take(*caster_of(scene), looking_ahead(0, 0, 0))) /
            (320.0 * 240.0);
@@ -150,7 +150,7 @@ TEST(DepthCamera, DarkFarAndGrazingSurfacesAreHolesMoreOften) {
 }
 
 TEST(DepthCamera, SomePixelsFlyBetweenNearAndFar) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 4.0F);
   add_wall(scene, 1.0F, 0.2F);
   DepthCameraParams params = faultless();
@@ -167,7 +167,7 @@ TEST(DepthCamera, SomePixelsFlyBetweenNearAndFar) {
 }
 
 TEST(DepthCamera, StripesShiftWholeColumns) {
-  Scene scene;
+  MeshScene scene;
   add_wall(scene, 3.0F);
   DepthCameraParams params = faultless();
   params.noise_m = 1e-9;

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-bool is_same(const Scene& a, const Scene& b) {
+bool is_same(const MeshScene& a, const MeshScene& b) {
   return a.vertices == b.vertices && a.texture_points == b.texture_points &&
          a.triangles.size() == b.triangles.size() && a.materials.size() == b.materials.size();
 }

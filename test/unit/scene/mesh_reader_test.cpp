@@ -60,7 +60,7 @@ TEST(MeshReader, ColoursAndTexturesComeWithTheMesh) {
   const std::string library = file_with(
       "a.mtl", "newmtl painted\nKd 0.1 0.2 0.3\nnewmtl pictured\nmap_Kd C:\\far\\" + base + "\n");
   std::vector<std::string> warnings;
-  const Scene scene = read_mesh(
+  const MeshScene scene = read_mesh(
       file_with("a.obj", "mtllib " + std::filesystem::path{library}.filename().string() +
                              "\nv 0 0 0\nv 1 0 0\nv 0 2 3\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl painted\n"
                              "f 1/1 2/2 3/3\nusemtl pictured\nf 1/1 3/3 2/2\n"),
@@ -79,7 +79,7 @@ TEST(MeshReader, AMissingOrBrokenTextureIsReportedAndItsColourTaken) {
   const std::string library = file_with(
       "a.mtl", "newmtl a\nKd 0.1 0.2 0.3\nmap_Kd none.png\nnewmtl b\nmap_Kd " + base + "\n");
   std::vector<std::string> warnings;
-  const Scene scene = read_mesh(
+  const MeshScene scene = read_mesh(
       file_with("a.obj", "mtllib " + std::filesystem::path{library}.filename().string() +
                              "\nv 0 0 0\nv 1 0 0\nv 0 2 3\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n"),
       warnings);
@@ -101,7 +101,7 @@ TEST(MeshReader, WhatIsNoMeshIsAnErrorThatNamesTheFile) {
 
 TEST(MeshReader, BrokenTrianglesAreLeftOut) {
   std::vector<std::string> warnings;
-  const Scene scene = read_mesh(
+  const MeshScene scene = read_mesh(
       file_with("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 3\nv nan 0 0\nf 1 2 3\nf 1 2 4\n"), warnings);
   EXPECT_EQ(scene.triangles.size(), 1U);
 }

@@ -12,7 +12,7 @@
 namespace cmn {
 namespace {
 
-Hit hit_of(const Scene& scene, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+Hit hit_of(const MeshScene& scene, const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
            float reach = 100.0F) {
   std::vector<Hit> hits;
   caster_of(scene)->cast({{origin, direction, reach}}, hits);
@@ -20,11 +20,11 @@ Hit hit_of(const Scene& scene, const Eigen::Vector3f& origin, const Eigen::Vecto
 }
 
 TEST(RayCaster, WaysToTheWallsOfABoxAreExact) {
-  const Scene room = box_room();
+  const MeshScene room = box_room();
   EXPECT_NEAR(hit_of(room, {1, 2, 1}, {1, 0, 0}).way, 3.0, 1e-5);
   EXPECT_NEAR(hit_of(room, {1, 2, 1}, {-1, 0, 0}).way, 1.0, 1e-5);
   EXPECT_NEAR(hit_of(room, {1, 2, 1}, {0, 0, -1}).way, 1.0, 1e-5);
-  const Eigen::Vector3f slanted = Eigen::Vector3f{1, 1, 0}.normalized();
+  const Eigen::Vector3f slanted = Eigen::Vector3f{-1, 1, 0}.normalized();
   EXPECT_NEAR(hit_of(room, {1, 2, 1}, slanted).way, std::sqrt(2.0), 1e-5);
 }
 
@@ -39,7 +39,7 @@ TEST(RayCaster, WhatLiesBeyondTheReachIsNotHit) {
 }
 
 TEST(RayCaster, NormalsPointBackToTheRay) {
-  const Scene room = box_room();
+  const MeshScene room = box_room();
   for (const Eigen::Vector3f& direction :
        {Eigen::Vector3f{1, 0, 0}, Eigen::Vector3f{0, -1, 0}, Eigen::Vector3f{0, 0, 1}}) {
     const Hit hit = hit_of(room, {1, 2, 1}, direction);
@@ -48,7 +48,7 @@ TEST(RayCaster, NormalsPointBackToTheRay) {
 }
 
 TEST(RayCaster, ABallIsSmooth) {
-  Scene ball;
+  MeshScene ball;
   add_sphere(ball, 1.0F, ball.add_material({}));
   const Eigen::Vector3f from{3.0F, 0.3F, 0.2F};
   const Hit hit = hit_of(ball, from, {-1, 0, 0});
@@ -57,7 +57,7 @@ TEST(RayCaster, ABallIsSmooth) {
 }
 
 TEST(RayCaster, RaysPassClearPanes) {
-  Scene room = box_room();
+  MeshScene room = box_room();
   Material glass;
   glass.opacity = 0.2F;
   add_box(room, {2, 1, 0}, {2.01F, 3, 2}, room.add_material(glass));
@@ -65,7 +65,7 @@ TEST(RayCaster, RaysPassClearPanes) {
 }
 
 TEST(RayCaster, RaysPassHolesOfTextures) {
-  Scene scene;
+  MeshScene scene;
   const cv::Mat texture =
       (cv::Mat_<cv::Vec4b>(1, 2) << cv::Vec4b{0, 0, 0, 0}, cv::Vec4b{1, 2, 3, 255});
   scene.add_quad({Eigen::Vector3f{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}},
@@ -79,8 +79,8 @@ TEST(RayCaster, RaysPassHolesOfTextures) {
 }
 
 TEST(RayCaster, ManyRaysAreTheSameAsOne) {
-  const Scene room = box_room();
-  std::vector<Ray> rays;
+  const MeshScene room = box_room();
+  std::vector<SceneRay> rays;
   for (int i = 0; i < 1001; ++i) {  // no multiple of a packet
     const float turn = 0.01F * static_cast<float>(i);
     rays.push_back({{1, 2, 1}, {std::cos(turn), std::sin(turn), 0.1F}});
@@ -100,7 +100,7 @@ TEST(RayCaster, AnEmptySceneHasNothingToHit) {
 }
 
 TEST(Texture, IsLookedUpWhereTheRayHits) {
-  Scene scene;
+  MeshScene scene;
   const cv::Mat texture =
       (cv::Mat_<cv::Vec4b>(2, 2) << cv::Vec4b{1, 0, 0, 255}, cv::Vec4b{2, 0, 0, 255},
        cv::Vec4b{3, 0, 0, 255}, cv::Vec4b{4, 0, 0, 255});
@@ -116,7 +116,7 @@ TEST(Texture, IsLookedUpWhereTheRayHits) {
 }
 
 TEST(Texture, RepeatsBeyondItsBorders) {
-  Scene scene;
+  MeshScene scene;
   const cv::Mat texture =
       (cv::Mat_<cv::Vec4b>(1, 2) << cv::Vec4b{1, 0, 0, 255}, cv::Vec4b{2, 0, 0, 255});
   scene.add_quad({Eigen::Vector3f{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}},
@@ -129,7 +129,7 @@ TEST(Texture, RepeatsBeyondItsBorders) {
 }
 
 TEST(Texture, OfMaterialsWithoutOneIsTheirColour) {
-  Scene scene;
+  MeshScene scene;
   scene.add_quad({Eigen::Vector3f{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}},
                  scene.add_material({"red", {1.0F, 0.5F, -3.0F}, {}}));
   const cv::Vec3b c = colour_at(scene, hit_of(scene, {1, 1, 1}, {0, 0, -1}));

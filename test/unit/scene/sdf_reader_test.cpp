@@ -45,7 +45,7 @@ class SdfReaderTest : public ::testing::Test {
     put("models/" + name + "/model.sdf", "<?xml version='1.0'?><sdf version='1.6'><model name='" +
                                              name + "'>" + inside + "</model></sdf>");
   }
-  Scene read(const std::string& path, SdfPart part = SdfPart::kVisual) {
+  MeshScene read(const std::string& path, SdfPart part = SdfPart::kVisual) {
     warnings_.clear();
     return read_sdf(path, warnings_, part);
   }
@@ -60,13 +60,14 @@ std::string visual(const std::string& geometry, const std::string& more = "") {
 }
 const std::string kBox = "<box><size>1 2 3</size></box>";  // NOLINT(cert-err58-cpp)
 
-void expect_bounds(const Scene& scene, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+void expect_bounds(const MeshScene& scene, const Eigen::Vector3f& low,
+                   const Eigen::Vector3f& high) {
   EXPECT_TRUE(scene.bounds().min().isApprox(low, 1e-4F)) << scene.bounds().min().transpose();
   EXPECT_TRUE(scene.bounds().max().isApprox(high, 1e-4F)) << scene.bounds().max().transpose();
 }
 
 TEST_F(SdfReaderTest, PosesOfModelLinkAndVisualAddUp) {
-  const Scene scene = read(put_world(
+  const MeshScene scene = read(put_world(
       "<model name='m'><pose>10 0 0 0 0 1.5707963</pose><link name='l'><pose>2 0 0 0 0 0</pose>"
       "<visual name='v'><pose>0 0 1.5 0 0 0</pose><geometry>" +
       kBox + "</geometry></visual></link></model>"));
@@ -90,7 +91,7 @@ TEST_F(SdfReaderTest, ShapesHaveTheirSizes) {
 TEST_F(SdfReaderTest, ModelsAreIncludedFromTheFolderBesideTheWorlds) {
   put_model("inner", visual(kBox));
   put_model("outer", "<include><uri>model://inner</uri><pose>0 5 0 0 0 0</pose></include>");
-  const Scene scene = read(
+  const MeshScene scene = read(
       put_world("<include><name>a</name><uri>model://outer</uri><pose>1 0 0 0 0 0</pose></include>"
                 "<model name='b'><include><uri>model://inner</uri></include>"
                 "<pose frame=''>-9 0 0 0 0 0</pose></model>"));
@@ -103,7 +104,7 @@ TEST_F(SdfReaderTest, MeshesAreScaled) {
   put_model("m", visual("<mesh><uri>model://m/flat.obj</uri><scale>2 3 0.5</scale></mesh>") +
                      "<link name='b'><visual name='w'><geometry><mesh><uri>flat.obj</uri></mesh>"
                      "</geometry></visual></link>");
-  const Scene scene = read(put_world("<include><uri>model://m</uri></include>"));
+  const MeshScene scene = read(put_world("<include><uri>model://m</uri></include>"));
   expect_bounds(scene, {0, 0, 0}, {2, 3, 2});
   EXPECT_EQ(scene.triangles.size(), 2U);
   EXPECT_THAT(warnings_, IsEmpty());
@@ -119,7 +120,7 @@ TEST_F(SdfReaderTest, CollisionsAreThereOnDemand) {
 }
 
 TEST_F(SdfReaderTest, ColoursAndLightsAreTaken) {
-  const Scene scene = read(
+  const MeshScene scene = read(
       put_world("<scene><ambient>0.1 0.2 0.3 1</ambient></scene>"
                 "<light name='sun' type='directional'><direction>0 0 -1</direction>"
                 "<diffuse>0.5 0.5 0.5 1</diffuse></light>"
@@ -144,7 +145,7 @@ TEST_F(SdfReaderTest, WhatIsMissingIsReportedAndSurvived) {
                         "<link name='b'><visual name='w'><geometry><mesh><uri>model://here/no.dae"
                         "</uri></mesh></geometry></visual></link>");
   put("models/here/broken.dae", "<COLLADA><not closed");
-  const Scene scene = read(put_world(
+  const MeshScene scene = read(put_world(
       "<include><uri>model://nowhere</uri></include><include><uri>model://here</uri></include>"
       "<model name='m'>" +
       visual("<mesh><uri>model://here/broken.dae</uri></mesh>") + "</model>"));
@@ -172,7 +173,7 @@ TEST_F(SdfReaderTest, WhatIsNoSdfIsAnError) {
 
 TEST_F(SdfReaderTest, FiguresThatAreNoneAreLeftOut) {
   put("models/m/flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 2\nf 1 2 3\n");
-  const Scene scene = read(put_world(
+  const MeshScene scene = read(put_world(
       "<model name='a'><pose>nan 0 0 0 0 0</pose>" + visual(kBox) + "</model><model name='b'>" +
       visual("<box><size>-1 1 1</size></box>") + "</model><model name='c'>" +
       visual("<mesh><uri>model://m/flat.obj</uri><scale>0 1 1</scale></mesh>") +

@@ -21,8 +21,8 @@ using ::testing::HasSubstr;
 bool is_free(const CoarseMap& map, Point2 p) { return map.is_free(map.cell_of(p)); }
 
 /// A box room whose walls are thin, with floor.
-Scene furnished() {
-  Scene scene = box_room();
+MeshScene furnished() {
+  MeshScene scene = box_room();
   add_box(scene, {1, 1, 0.3F}, {1.5F, 2, 0.4F}, 0);  // a shelf in the air
   add_box(scene, {3, 3, 0}, {3.5F, 3.5F, 1}, 0);     // a hollow block
   return scene;
@@ -42,7 +42,7 @@ TEST(Slice, HoldsWhatStandsWithinTheBand) {
 }
 
 TEST(Slice, WallsOnTheBordersOfCellsBelongToTheCellsBehindThem) {
-  Scene scene;
+  MeshScene scene;
   const std::uint32_t paint = scene.add_material({});
   scene.add_quad({Eigen::Vector3f{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, paint);
   add_box(scene, {1, 1, 0}, {2, 3, 1}, paint);
@@ -73,7 +73,7 @@ TEST(Slice, OfAnExtrudedMapIsTheMap) {
 }
 
 TEST(Slice, OneThatIsAskedForIsTaken) {
-  Scene two = box_room();
+  MeshScene two = box_room();
   add(two, box_room(),
       Eigen::Affine3d{Eigen::Translation3d{10, 0, 0} * Eigen::Scaling(1.5, 1.5, 1.0)});
   SliceParams params;
@@ -86,14 +86,14 @@ TEST(Slice, OneThatIsAskedForIsTaken) {
 }
 
 TEST(Slice, WithoutFloorThereIsNothingToDriveOn) {
-  Scene scene;
+  MeshScene scene;
   EXPECT_THAT(error_of([&] { slice(scene, {}); }), HasSubstr("no floor"));
   add_box(scene, {0, 0, 3}, {1, 1, 4}, scene.add_material({}));
   EXPECT_THAT(error_of([&] { slice(scene, {}); }), HasSubstr("no floor"));
 }
 
 TEST(Slice, AnAreaTooLargeIsAnError) {
-  Scene scene;
+  MeshScene scene;
   add_box(scene, {0, 0, 0}, {1e5F, 1e5F, 1}, scene.add_material({}));
   EXPECT_THAT(error_of([&] { slice(scene, {}); }), HasSubstr("too large"));
 }
