@@ -97,7 +97,11 @@ class IncludeCounter {
     std::size_t sum = 1;
     for (const std::string& uri : texts_in(file, "include", "uri")) {
       const std::string model = find_uri(uri, file.parent_path().string(), folders_);
-      for (const fs::path& included : model.empty() ? std::vector<fs::path>{} : files_of(model)) {
+      if (model.empty()) {
+        missing_.push_back(uri);
+        continue;
+      }
+      for (const fs::path& included : files_of(model)) {
         sum += count(included);
         if (sum > kMostIncludes) {
           throw std::runtime_error(key + ": includes more than " + std::to_string(kMostIncludes) +
@@ -108,10 +112,12 @@ class IncludeCounter {
     --depth_;
     return counts_[key] = sum;
   }
+  const std::vector<std::string>& missing() const { return missing_; }
 
  private:
   const std::vector<std::string>& folders_;
   std::map<std::string, std::size_t> counts_;  ///< 0: under way
+  std::vector<std::string> missing_;
   int depth_ = 0;
 };
 
@@ -160,8 +166,11 @@ std::string find_uri(const std::string& uri, const std::string& folder,
   return !uri.empty() && is_there(found) ? found.string() : "";
 }
 
-std::size_t count_includes(const std::string& world, const std::vector<std::string>& folders) {
-  return IncludeCounter{folders}.count(world);
+std::vector<std::string> check_includes(const std::string& world,
+                                        const std::vector<std::string>& folders) {
+  IncludeCounter counter{folders};
+  counter.count(world);
+  return counter.missing();
 }
 
 }  // namespace cmn

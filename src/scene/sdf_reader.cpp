@@ -39,18 +39,35 @@ Eigen::Vector3f rgb(const ignition::math::Color& colour) {
 
 std::string folder_of(const std::string& file) { return fs::path{file}.parent_path().string(); }
 
+/// sdformat reads the includes of included files with its global settings: ours, for so long.
+class GlobalConfig {
+ public:
+  explicit GlobalConfig(const sdf::ParserConfig& config) {
+    sdf::ParserConfig::GlobalConfig() = config;
+  }
+  ~GlobalConfig() { sdf::ParserConfig::GlobalConfig() = before_; }
+  GlobalConfig(const GlobalConfig&) = delete;
+  GlobalConfig& operator=(const GlobalConfig&) = delete;
+
+ private:
+  sdf::ParserConfig before_ = sdf::ParserConfig::GlobalConfig();
+};
+
 class SdfReader {
  public:
   SdfReader(const std::string& path, std::vector<std::string>& warnings, SdfPart part)
       : path_{path}, folders_{model_folders(path)}, warnings_{warnings}, part_{part} {}
 
   MeshScene read() {
-    count_includes(path_, folders_);  // or throws
+    for (const std::string& uri : check_includes(path_, folders_)) {
+      warn(path_, "there is no " + uri);
+    }
     sdf::Console::Instance()->SetQuiet(true);
     sdf::ParserConfig config;
     config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
     config.SetFindCallback(
         [this](const std::string& uri) { return find_uri(uri, folder_of(path_), folders_); });
+    const GlobalConfig global{config};
     sdf::Root root;
     sdf::Errors errors;
     try {

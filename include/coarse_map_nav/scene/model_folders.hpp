@@ -18,9 +18,11 @@ std::vector<std::string> model_folders(const std::string& world);
 std::string find_uri(const std::string& uri, const std::string& folder,
                      const std::vector<std::string>& folders);
 
-/// How many files a world comes to with all its includes, those of includes too, each as often as
-/// it is included. Throws std::runtime_error when a file includes itself over any number of others,
-/// or when there are more than 20000: a reader would not come to an end.
-std::size_t count_includes(const std::string& world, const std::vector<std::string>& folders);
+/// Follows all includes of a world, those of included files too, and returns the URIs that lead
+/// nowhere. Throws std::runtime_error when a file includes itself over any number of others, or
+/// when they come to more than 20000 files, each counted as often as it is included: a reader would
+/// not come to an end.
+std::vector<std::string> check_includes(const std::string& world,
+                                        const std::vector<std::string>& folders);
 
 }  // namespace cmn

@@ -23,7 +23,8 @@ enum class SdfPart {
 /// planes and meshes are read, with their lights; a plane is as large as it says. A world without
 /// lights keeps none. What can be survived (a model, mesh or texture that is missing or
 /// broken, a geometry of another kind) is added to `warnings`, a sentence each. Throws
-/// std::runtime_error, naming the file, when it is no SDF or nothing in it has a surface.
+/// std::runtime_error, naming the file, when it is no SDF or nothing in it has a surface. One at a
+/// time: sdformat has global settings.
 MeshScene read_sdf(const std::string& path, std::vector<std::string>& warnings,
                    SdfPart part = SdfPart::kVisual);
 

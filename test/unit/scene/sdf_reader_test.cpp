@@ -174,7 +174,7 @@ TEST_F(SdfReaderTest, WhatIsNoSdfIsAnError) {
 TEST_F(SdfReaderTest, FiguresThatAreNoneAreLeftOut) {
   put("models/m/flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 2\nf 1 2 3\n");
   const MeshScene scene = read(put_world(
-      "<model name='a'><pose>nan 0 0 0 0 0</pose>" + visual(kBox) + "</model><model name='b'>" +
+      "<model name='a'><pose>1e9 0 0 0 0 0</pose>" + visual(kBox) + "</model><model name='b'>" +
       visual("<box><size>-1 1 1</size></box>") + "</model><model name='c'>" +
       visual("<mesh><uri>model://m/flat.obj</uri><scale>0 1 1</scale></mesh>") +
       "</model><model name='d'>" + visual(kBox) + "</model>"));
