@@ -25,16 +25,26 @@ RangeSensor::RangeSensor(const LidarParams& params, std::uint32_t seed, const Po
 }
 
 RangeScan RangeSensor::measure(const World& world, const Pose2& T_world_robot, double stamp_s) {
-  RangeScan scan = layout_;
-  scan.stamp_s = stamp_s;
-  scan.ranges_m.resize(directions_.size());
   const Pose2 T_world_sensor = T_world_robot * layout_.T_robot_sensor;
   const double c = std::cos(T_world_sensor.yaw);
   const double s = std::sin(T_world_sensor.yaw);
-  for (std::size_t i = 0; i < directions_.size(); ++i) {
-    const Point2 d = directions_[i];
-    scan.ranges_m[i] = read(world.cast(
-        T_world_sensor.position(), {c * d.x - s * d.y, s * d.x + c * d.y}, params_.range_max_m));
+  std::vector<double> ranges_m;
+  ranges_m.reserve(directions_.size());
+  for (const Point2 d : directions_) {
+    ranges_m.push_back(world.cast(T_world_sensor.position(), {c * d.x - s * d.y, s * d.x + c * d.y},
+                                  params_.range_max_m));
+  }
+  return read(ranges_m, layout_.T_robot_sensor, stamp_s);
+}
+
+RangeScan RangeSensor::read(const std::vector<double>& true_ranges_m, const Pose2& T_robot_sensor,
+                            double stamp_s) {
+  RangeScan scan = layout_;
+  scan.stamp_s = stamp_s;
+  scan.T_robot_sensor = T_robot_sensor;
+  scan.ranges_m.reserve(true_ranges_m.size());
+  for (const double range_m : true_ranges_m) {
+    scan.ranges_m.push_back(read(range_m));
   }
   return scan;
 }

@@ -48,6 +48,11 @@ class RangeSensor {
   RangeSensor(const LidarParams& params, std::uint32_t seed, const Pose2& T_robot_sensor = {});
 
   RangeScan measure(const World& world, const Pose2& T_world_robot, double stamp_s);
+  /// Unit vectors along the beams, in the sensor's frame.
+  const std::vector<Point2>& directions() const { return directions_; }
+  /// What the LiDAR makes of the true ranges along its beams; +inf: nothing there.
+  RangeScan read(const std::vector<double>& true_ranges_m, const Pose2& T_robot_sensor,
+                 double stamp_s);
 
  private:
   float read(double true_range_m);
