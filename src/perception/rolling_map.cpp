@@ -203,8 +203,8 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
       }
       const std::size_t i = look.index_of(ix, iy);
       const float news = look.confidence[i];
-      if (news > 0.0F) {
-        Known& known = known_({column, row});
+      Known& known = known_({column, row});
+      if (news > kPresumed || (news > 0.0F && known.confidence == 0.0F)) {
         known.occupancy = (known.occupancy * known.confidence + look.occupancy[i] * news) /
                           (known.confidence + news);
         known.confidence =

@@ -34,11 +34,12 @@ struct RollingMapParams {
 /// f and confidence c are carried along by egomotion, and a look (f', c') is folded in by f <- (f c
 /// + f' c') / (c + c'), c <- c + c'.
 ///
-/// Three differences (ours): the grid keeps its place in a frame of its own and scrolls with the
-/// robot, since warping it anew at each step blurs walls away; confidence is limited and fades with
-/// the way driven, since people move; and each look is aligned with what was seen before
-/// (correlative scan matching, Olson 2009, over a few degrees and cells), since odometry drifts: of
-/// a robot that turns often, it would draw arcs for walls.
+/// What is only presumed (kPresumed) changes nothing that is known. Three differences (ours): the
+/// grid keeps its place in a frame of its own and scrolls with the robot, since warping it anew at
+/// each step blurs walls away; confidence is limited and fades with the way driven, since people
+/// move; and each look is aligned with what was seen before (correlative scan matching, Olson 2009,
+/// over a few degrees and cells), since odometry drifts: of a robot that turns often, it would draw
+/// arcs for walls.
 class RollingMap {
  public:
   explicit RollingMap(const RollingMapParams& params) : params_{params} {}
