@@ -156,7 +156,7 @@ void RollingMap::scroll_to(Cell middle) {
   middle_ = middle;
 }
 
-LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_robot) {
+LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) {
   // The square of the look fits into the window however it is turned.
   const int window = static_cast<int>(std::ceil(std::sqrt(2.0) * look.size)) + 2;
   const bool is_first = known_.width() != window || resolution_ != look.resolution;
@@ -216,7 +216,6 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
   const Transform to_map{T_map_robot};
   const int corner_x = wrapped(middle_.x - reach, window);
   const int corner_y = wrapped(middle_.y - reach, window);
-  LocalOccupancy all = look;
   for (int iy = 0; iy < look.size; ++iy) {
     for (int ix = 0; ix < look.size; ++ix) {
       const std::size_t i = look.index_of(ix, iy);
@@ -227,12 +226,12 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
       const int y = corner_y + c.y - (middle_.y - reach);
       const Known& known = known_({x < window ? x : x - window, y < window ? y : y - window});
       if (known.confidence > 0.0F) {
-        all.occupancy[i] = known.occupancy;
-        all.confidence[i] = known.confidence;
+        look.occupancy[i] = known.occupancy;
+        look.confidence[i] = known.confidence;
       }
     }
   }
-  return all;
+  return look;
 }
 
 }  // namespace cmn

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/grid.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/perception/accumulator.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -40,14 +41,12 @@ struct RollingMapParams {
 /// move; and each look is aligned with what was seen before (correlative scan matching, Olson 2009,
 /// over a few degrees and cells), since odometry drifts: of a robot that turns often, it would draw
 /// arcs for walls.
-class RollingMap {
+class RollingMap : public Accumulator {
  public:
   explicit RollingMap(const RollingMapParams& params) : params_{params} {}
 
-  /// Folds in a look and returns all that is known, in the frame and on the cells of the look.
-  LocalOccupancy fuse(const LocalOccupancy& look, const Pose2& T_odom_robot);
-  /// The odometry jumped: what was seen lies nobody knows where.
-  void forget();
+  LocalOccupancy fuse(LocalOccupancy look, const Pose2& T_odom_robot) override;
+  void forget() override;
 
  private:
   struct Known {
