@@ -25,18 +25,21 @@ constexpr std::size_t kBlur = 2;  ///< [pixels] width of the blur at an edge
 /// From the densest neighbourhood's way: more would climb up a slope.
 constexpr std::size_t kMostClimbed = 2;
 
-/// atan2 to within 1e-4 rad, without branches, for the compiler to do several at once. (Hastings
-/// 1955, sheet 11.) NaN for NaN.
+/// atan2 to within 1e-4 rad, without branches, for the compiler to do several at once: the octants
+/// are folded onto one another by signs. (Polynomial: Hastings 1955, sheet 11.) NaN for NaN.
 float bearing_of(float x, float y) {
+  constexpr auto kQuarter = static_cast<float>(kPi / 2.0);
+  constexpr float kEighth = 0.5F * kQuarter;
   const float ax = std::abs(x);
   const float ay = std::abs(y);
-  const float ratio = std::min(ax, ay) / std::max(ax, ay);
+  const float difference = std::abs(ax - ay);
+  const float ratio = (ax + ay - difference) / (ax + ay + difference);
   const float s = ratio * ratio;
-  float angle =
+  const float angle =
       ratio * (0.999866F + s * (-0.3302995F + s * (0.180141F + s * (-0.085133F + s * 0.0208351F))));
-  angle = ay > ax ? static_cast<float>(kPi / 2.0) - angle : angle;
-  angle = x < 0.0F ? static_cast<float>(kPi) - angle : angle;
-  return y < 0.0F ? -angle : angle;
+  const float first = kEighth - std::copysign(kEighth - angle, ax - ay);
+  const float upper = kQuarter - std::copysign(kQuarter - first, x);
+  return std::copysign(upper, y);
 }
 
 /// A number that grows like the logarithm of `square_m2` > 0: 32 a doubling of the range.
@@ -233,10 +236,12 @@ RangeScan DepthProjector::scan_of(const Source& source, RangeScan scan) {
       log_range_of(static_cast<float>(params_.range_min_m * params_.range_min_m));
   range_bins_ = static_cast<std::size_t>(
       log_range_of(static_cast<float>(params_.range_max_m * params_.range_max_m)) - nearest + 3);
-  bins_.assign((scan.ranges_m.size() + 2) * range_bins_, Bin{});
+  bins_.assign((scan.ranges_m.size() + 2) * range_bins_ + 1, Bin{});
   for (auto* buffer : {&x_, &y_, &z_, &square_m2_, &bearing_}) {
     buffer->resize(kPiece);
   }
+  bin_.resize(kPiece);
+  in_way_.resize(kPiece);
   for (std::size_t v = 0; v < source.height(); ++v) {
     for (std::size_t first = 0; first < source.width(); first += kPiece) {
       const std::size_t count = std::min(kPiece, source.width() - first);
@@ -271,54 +276,71 @@ FloorPlane DepthProjector::floor_of(const Source& source) {
 
 void DepthProjector::sort_in(std::size_t count, bool is_organised, const RangeScan& layout,
                              const FloorPlane& plane) {
+  measure(count, layout, plane);
   const auto range_min_m = static_cast<float>(params_.range_min_m);
   const float least_m2 = range_min_m * range_min_m;
-  const auto range_max_m = static_cast<float>(params_.range_max_m);
-  const float most_m2 = range_max_m * range_max_m;
+  const std::int32_t nearest = log_range_of(least_m2);
+  const auto beams = static_cast<std::int32_t>(layout.ranges_m.size());
+  const auto range_bins = static_cast<std::int32_t>(range_bins_);
+  const std::int32_t farthest = range_bins - 2;
+  const auto none = static_cast<std::int32_t>(bins_.size() - 1);
+  const auto lowest_m = static_cast<float>(params_.lowest_m);
+  const auto highest_m = static_cast<float>(params_.highest_m);
+  std::int32_t points = 0;
+  // Without branches, for the compiler to do several at once.
+  for (std::size_t i = 0; i < count; ++i) {
+    const float square_m2 = square_m2_[i];
+    const bool is_point = (square_m2 >= least_m2) & (square_m2 < kInfinity);
+    const bool is_in_band = (z_[i] > -lowest_m) & (z_[i] < highest_m);
+    const std::int32_t log_range = log_range_of(square_m2) - nearest + 1;
+    const auto beam = static_cast<std::int32_t>(bearing_[i]);
+    // All around, half a bin before the first is last.
+    const std::int32_t row = beam > beams ? beam - beams : beam;
+    const std::int32_t bin = row * range_bins + std::min(log_range, farthest);
+    const bool is_in_way = (z_[i] > lowest_m) & (log_range <= farthest);
+    points += is_point;
+    bin_[i] = is_point & is_in_band ? bin : none;
+    in_way_[i] = is_in_way ? 1U : 0U;
+  }
+  report_.points += static_cast<std::size_t>(points);
+  constexpr float kGap = (1.0F + kEdge) * (1.0F + kEdge);
+  if (is_organised) {
+    std::int32_t flying = 0;
+    for (std::size_t i = kBlur; i + kBlur < count; ++i) {
+      const float here = square_m2_[i];
+      const float before = square_m2_[i - kBlur];
+      const float after = square_m2_[i + kBlur];
+      const float farther = kGap * here;
+      const bool is_flying = ((here > kGap * before) & (after > farther)) |
+                             ((here > kGap * after) & (before > farther));
+      flying += is_flying;
+      bin_[i] = is_flying ? none : bin_[i];
+    }
+    report_.flying += static_cast<std::size_t>(flying);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Bin& bin = bins_[static_cast<std::size_t>(bin_[i])];
+    bin.square_sum_m2 += in_way_[i] != 0 ? square_m2_[i] : 0.0F;
+    bin.obstacles += in_way_[i];
+    ++bin.points;
+  }
+}
+
+void DepthProjector::measure(std::size_t count, const RangeScan& layout, const FloorPlane& plane) {
   const auto per_rad = static_cast<float>(1.0 / layout.angle_increment_rad);
   // Half a bin more, for rounding, and one more, since there is a row of none before the first.
   const float from = 1.5F - static_cast<float>(layout.angle_min_rad) * per_rad;
+  const float last = static_cast<float>(layout.ranges_m.size()) + 1.5F;
   const float slope_x = plane.slope.x(), slope_y = plane.slope.y();
   const float height_m = height_m_ - plane.offset_m;
   for (std::size_t i = 0; i < count; ++i) {
     square_m2_[i] = x_[i] * x_[i] + y_[i] * y_[i];
-    bearing_[i] = from + per_rad * bearing_of(x_[i], y_[i]);
     z_[i] += height_m - slope_x * x_[i] - slope_y * y_[i];
   }
-  const auto lowest_m = static_cast<float>(params_.lowest_m);
-  const auto highest_m = static_cast<float>(params_.highest_m);
-  const std::int32_t nearest = log_range_of(least_m2);
-  const std::size_t beams = layout.ranges_m.size();
-  constexpr float kGap = (1.0F + kEdge) * (1.0F + kEdge);
   for (std::size_t i = 0; i < count; ++i) {
-    const float square_m2 = square_m2_[i];
-    if (!(square_m2 >= least_m2 && square_m2 < kInfinity)) {
-      continue;
-    }
-    ++report_.points;
-    if (is_organised && i >= kBlur && i + kBlur < count) {
-      const float nearer = std::min(square_m2_[i - kBlur], square_m2_[i + kBlur]);
-      const float farther = std::max(square_m2_[i - kBlur], square_m2_[i + kBlur]);
-      if (square_m2 > kGap * nearer && farther > kGap * square_m2) {
-        ++report_.flying;
-        continue;
-      }
-    }
-    if (!(z_[i] > -lowest_m && z_[i] < highest_m)) {
-      continue;
-    }
-    auto beam = static_cast<std::size_t>(bearing_[i]);
-    beam = beam > beams ? beam - beams : beam;  // all around, half a bin before the first is last
-    const bool is_far = square_m2 > most_m2;
-    const std::size_t range_bin =
-        is_far ? range_bins_ - 2 : static_cast<std::size_t>(log_range_of(square_m2) - nearest) + 1;
-    Bin& bin = bins_[beam * range_bins_ + range_bin];
-    if (z_[i] > lowest_m && !is_far) {
-      bin.square_sum_m2 += square_m2;
-      ++bin.obstacles;
-    } else {
-      ++bin.seen;
-    }
+    const float bearing = from + per_rad * bearing_of(x_[i], y_[i]);
+    const float at_least = bearing > 1.0F ? bearing : 1.0F;  // of NaN, too
+    bearing_[i] = at_least < last ? at_least : last;
   }
 }
 
@@ -331,7 +353,7 @@ void DepthProjector::read_out(RangeScan& scan) {
     const Bin* after = own + range_bins_;
     std::uint32_t points = 0;
     for (std::size_t r = 0; r < range_bins_; ++r) {
-      points += own[r].obstacles + own[r].seen;
+      points += own[r].points;
     }
     const auto enough = std::max(
         kFewest, static_cast<std::uint32_t>(params_.least_share * static_cast<double>(points)));
@@ -341,7 +363,7 @@ void DepthProjector::read_out(RangeScan& scan) {
              count(after[r + 1]);
     };
     const auto obstacles = [](const Bin& bin) { return bin.obstacles; };
-    const auto any = [](const Bin& bin) { return bin.obstacles + bin.seen; };
+    const auto any = [](const Bin& bin) { return bin.points; };
     RangeScan::Sight& sight = scan.sights[beam];
     bool has_seen = false;
     std::size_t hit = 0;

@@ -77,9 +77,9 @@ class DepthProjector {
  private:
   /// Points by bearing and log range.
   struct Bin {
-    float square_sum_m2 = 0.0F;   ///< of the ranges of what is in the way
-    std::uint32_t obstacles = 0;  ///< points in the way
-    std::uint32_t seen = 0;       ///< and those of the floor
+    float square_sum_m2 = 0.0F;   ///< of the ranges of those in the way
+    std::uint32_t obstacles = 0;  ///< in the way
+    std::uint32_t points = 0;     ///< these and those of the floor
   };
   template <class Source>
   RangeScan scan_of(const Source& source, RangeScan layout);
@@ -87,6 +87,8 @@ class DepthProjector {
   FloorPlane floor_of(const Source& source);
   void sort_in(std::size_t count, bool is_organised, const RangeScan& layout,
                const FloorPlane& plane);
+  /// Of the piece of a row: ranges, heights over the floor, rows of bins_.
+  void measure(std::size_t count, const RangeScan& layout, const FloorPlane& plane);
   void read_out(RangeScan& scan);
 
   DepthParams params_;
@@ -94,9 +96,12 @@ class DepthProjector {
   DepthReport report_;
   float height_m_ = 0.0F;  ///< of the camera over the nominal floor
   std::size_t range_bins_ = 0;
-  std::vector<Bin> bins_;  ///< bearings + 2, range_bins_ each; a row of none at either end
+  /// Bearings + 2, range_bins_ each, with a row of none at either end; then one for all the rest.
+  std::vector<Bin> bins_;
   std::vector<Eigen::Vector3f> candidates_;
   std::vector<float> x_, y_, z_, square_m2_, bearing_;  ///< a piece of a row
+  std::vector<std::int32_t> bin_;                       ///< of its points
+  std::vector<std::uint32_t> in_way_;                   ///< 1 for those in the way
 };
 
 }  // namespace cmn
