@@ -249,7 +249,9 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       break;
     }
     last_outcome = robot.carry_out(decision.action);
-    the_judge.count_action(decision.action);
+    if (!decision.is_pivot) {
+      the_judge.count_action(decision.action);
+    }
     the_judge.look_at(robot);
     if (the_judge.is_time_to_kidnap(robot)) {
       kidnap();

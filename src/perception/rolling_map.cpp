@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <cstdlib>
 
 #include <opencv2/core.hpp>
@@ -235,7 +236,7 @@ void RollingMap::fold_in(const LocalOccupancy& look, const Pose2& T_map_robot) {
       }
       const std::size_t i = look.index_of(static_cast<int>(p.x), static_cast<int>(p.y));
       const float news = look.confidence[i];
-      if (news > 0.0F) {
+      if (news > kPresumed || (news > 0.0F && confidence[x] == 0.0F)) {
         const float before = confidence[x] > 0.0F ? confidence[x] * occupancy[x] : 0.0F;
         occupancy[x] = (before + look.occupancy[i] * news) / (confidence[x] + news);
         confidence[x] = std::min(confidence[x] + news, most_looks);
@@ -244,7 +245,7 @@ void RollingMap::fold_in(const LocalOccupancy& look, const Pose2& T_map_robot) {
   }
 }
 
-LocalOccupancy RollingMap::all_known(const LocalOccupancy& look, const Pose2& T_map_robot) const {
+LocalOccupancy RollingMap::all_known(LocalOccupancy look, const Pose2& T_map_robot) const {
   const int window = confidence_.width();
   // In cells of the window, from its corner.
   const Cell corner = middle_ - Cell{window / 2, window / 2};
@@ -254,7 +255,6 @@ LocalOccupancy RollingMap::all_known(const LocalOccupancy& look, const Pose2& T_
   const Point2 first = (1.0 / resolution_) * T_map_robot.position() -
                        Point2{static_cast<double>(corner.x), static_cast<double>(corner.y)} -
                        Point2{half * (along.x - along.y), half * (along.x + along.y)};
-  LocalOccupancy all = look;
   for (int iy = 0; iy < look.size; ++iy) {
     const Point2 row{first.x - iy * along.y, first.y + iy * along.x};
     for (int ix = 0; ix < look.size; ++ix) {
@@ -265,14 +265,14 @@ LocalOccupancy RollingMap::all_known(const LocalOccupancy& look, const Pose2& T_
           confidence_.index_of({x < window ? x : x - window, y < window ? y : y - window});
       const std::size_t i = look.index_of(ix, iy);
       const bool is_known = confidence_[there] > 0.0F;
-      all.occupancy[i] = is_known ? occupancy_[there] : look.occupancy[i];
-      all.confidence[i] = is_known ? confidence_[there] : look.confidence[i];
+      look.occupancy[i] = is_known ? occupancy_[there] : look.occupancy[i];
+      look.confidence[i] = is_known ? confidence_[there] : look.confidence[i];
     }
   }
-  return all;
+  return look;
 }
 
-LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_robot) {
+LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) {
   // The square of the look fits into the window however it is turned.
   const int window = static_cast<int>(std::ceil(std::sqrt(2.0) * look.size)) + 2;
   const bool is_first = confidence_.width() != window || resolution_ != look.resolution;
@@ -296,7 +296,7 @@ LocalOccupancy RollingMap::fuse(const LocalOccupancy& look, const Pose2& T_odom_
   }
   last_ = T_odom_robot.position();
   fold_in(look, T_map_robot);
-  return all_known(look, T_map_robot);
+  return all_known(std::move(look), T_map_robot);
 }
 
 }  // namespace cmn
