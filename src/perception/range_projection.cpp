@@ -25,12 +25,13 @@ std::int32_t nearest_beam(const RangeScan& scan, std::size_t beams, double beari
   return 2.0 * kPi - past_first <= 0.5 * step ? 0 : -1;
 }
 
-/// Of a sensor that looks down at a slant: true for ground that it would look at from the robot's
-/// middle, and misses only because it sits farther ahead.
+/// True for ground that the sensor would look at from the robot's middle, and misses only because
+/// it sits farther ahead: under the robot itself and, if it looks down at a slant, before the
+/// robot.
 bool is_between(const RangeScan& scan, std::size_t beams, Point2 p_robot) {
-  constexpr double kNear_m = 0.5;
+  const double near_m = scan.sights.empty() ? 0.2 : 0.5;
   const double bearing = std::atan2(p_robot.y, p_robot.x) - scan.T_robot_sensor.yaw;
-  return !scan.sights.empty() && norm(p_robot) < kNear_m && nearest_beam(scan, beams, bearing) >= 0;
+  return norm(p_robot) < near_m && nearest_beam(scan, beams, bearing) >= 0;
 }
 
 bool is_usable(float range_m, const RangeScan& scan) {

@@ -63,7 +63,7 @@ struct BeamCount {
 /// occupancy 1, Robb's "everything beyond is occupied"; who trusts only what was seen looks at the
 /// confidence. Bearings outside the field of view and unusable beams leave 0.5 with confidence 0.
 /// Nearer than the sight of a beam begins, free cells have the confidence kPresumed, and so has the
-/// ground between the robot's middle and a camera before it, which no beam crosses.
+/// ground between the robot's middle and a sensor before it, which no beam crosses.
 /// In a dense scan, a lone beam that met nothing between two that hit is taken to be free only as
 /// far as they were: most lidars report a lost echo so.
 /// Each cell's bearing and distance are tabulated for the sensor at hand, so that a scan costs one

@@ -111,6 +111,21 @@ TEST(RangeProjector, KnowsNothingOutsideTheFieldOfView) {
   EXPECT_EQ(local.occupancy[at(local, -0.3, 0.2)], 0.5F);
 }
 
+TEST(RangeProjector, TakesTheGroundBetweenTheRobotsMiddleAndTheSensorToBeFree) {
+  RangeScan scan = full_circle(kInf, 241);  // a Hokuyo at the front of a TurtleBot 2
+  scan.angle_min_rad = -120.0 * kPi / 180.0;
+  scan.angle_increment_rad = kPi / 180.0;
+  scan.T_robot_sensor = {0.1, 0.0, 0.0};
+  RangeProjector projector{ProjectionParams{}};
+  const LocalOccupancy local = projector.project(scan);
+  for (const double x : {0.005, 0.055, 0.095}) {
+    EXPECT_EQ(local.occupancy[at(local, x, 0.005)], 0.0F) << x;
+    EXPECT_EQ(local.confidence[at(local, x, 0.005)], kPresumed) << x;
+  }
+  EXPECT_EQ(local.confidence[at(local, -0.1, 0.005)], 0.0F) << "it does not look back";
+  EXPECT_EQ(local.confidence[at(local, 0.2, 0.0)], 1.0F);
+}
+
 TEST(RangeProjector, SeesTheSameWithASensorThatSpinsClockwise) {
   RangeScan scan = full_circle(2.0F);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
