@@ -119,6 +119,7 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
 template <class Tell>
 void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const WeightLayer& weights,
                                Tell&& tell) const {
+  std::vector<double> row(static_cast<std::size_t>(map_.width()));
   const auto first = static_cast<std::size_t>(layer * kBearingsPerQuarter);
   for (int y = 0; y < map_.height(); ++y) {
     for (int x = 0; x < map_.width(); x += 4) {
@@ -149,11 +150,15 @@ void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const Weight
         }
       }
       for (std::size_t k = 0; k < here; ++k) {
-        if (weights[i + k] != 0.0F) {
-          tell(static_cast<std::uint32_t>(i + k),
-               together(evidence, range[k], hits[k], frees[k],
-                        map_.is_free({x + static_cast<int>(k), y})));
-        }
+        row[static_cast<std::size_t>(x) + k] = together(evidence, range[k], hits[k], frees[k],
+                                                        map_.is_free({x + static_cast<int>(k), y}));
+      }
+    }
+    // Apart from the sums, which would wait for the logarithms of those who are told.
+    for (int x = 0; x < map_.width(); ++x) {
+      const auto i = static_cast<std::uint32_t>(belief_.padded_index({x, y}));
+      if (weights[i] != 0.0F) {
+        tell(i, row[static_cast<std::size_t>(x)]);
       }
     }
   }
@@ -170,7 +175,9 @@ bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news)
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     for (int layer = 0; layer < 4; ++layer) {
       WeightLayer& weights = sheets_[s].layers[static_cast<std::size_t>(layer)];
-      weights.settle();
+      if (weights.is_listed()) {
+        weights.settle();  // moving may have made many of few
+      }
       if (weights.is_listed() && weights.list().empty()) {
         continue;
       }

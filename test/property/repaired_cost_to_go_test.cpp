@@ -23,7 +23,7 @@ void look_anywhere(std::mt19937_64& rng, RepairedMap& map) {
     o = o > 0.99F ? 1.0F : 0.0F;
   }
   ClearanceMap clearance;
-  clearance.measure(seen);
+  clearance.measure(seen, 0.19);
   const Point2 position_cells{map.width() * draw_uniform(rng) / map.cuts(),
                               map.height() * draw_uniform(rng) / map.cuts()};
   map.fuse(seen, clearance, 0.19, position_cells, 6.0 * draw_uniform(rng));
