@@ -191,6 +191,18 @@ refused "slit.yaml: the world has no free space for a robot of radius 0.18 m" \
   --world "$out/slit.yaml" --out "$out/refused"
 touch "$out/file"
 refused "$out/file" --world "$worlds/home.yaml" --out "$out/file"
+drawing=(--map "$out/drawing.yaml" --map-to-world "$out/drawing_places.yaml")
+"$1/devel/lib/coarse_map_nav/cmn_coarsen" "$worlds/home.yaml" --kind hand_drawn --out "$out/drawing.yaml" >/dev/null
+"$program" --world "$worlds/home.yaml" --task HL "${drawing[@]}" --method true_pose --episodes 2 \
+  --out "$out/given" >"$out/given.txt"
+grep -q 'task=HL mpp=0.40 method=true_pose SR=1.000' "$out/given.txt" || wrong "$(cat "$out/given.txt")"
+refused "without --mpp" "${home[@]}" "${drawing[@]}" --mpp 0.4
+refused "a single --world" "${home[@]}" --world "$worlds/lab.yaml" "${drawing[@]}"
+refused "at least 3 places" "${home[@]}" --map "$out/drawing.yaml"
+sed 's/map: \[/map: [1/' "$out/drawing_places.yaml" >"$out/beside.yaml"
+refused "with $out/beside.yaml: the " "${home[@]}" --map "$out/drawing.yaml" --map-to-world "$out/beside.yaml"
+printf 'least_way_m: 0\nsimulation: {robot: {radius: 0.1}}\n' >"$out/judge.yaml"
+refused "judge.yaml:" "${home[@]}" --judge "$out/judge.yaml"
 refused "is not the name of an episode" "${home[@]}" --replay 17
 refused "--explain goes with --replay" "${home[@]}" --explain 3
 refused "--explain 3rd is not the number of an action" "${home[@]}" --replay CL-0.40-home-1-cmn --explain 3rd

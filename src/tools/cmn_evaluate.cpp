@@ -4,6 +4,8 @@
 /// cmn_evaluate: every method on every building, judged; the tables by which this package is
 /// judged.
 
+#include "coarse_map_nav/mapping/map_reader.hpp"
+
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -186,6 +188,11 @@ int run(int argc, char** argv) {
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
                  {"ours"}, "ours"),
              "several with commas; ours+VARIANT: with one part changed; ours+all: with each");
+  add_option("map", po::value<std::string>(),
+             "a drawing of the only world, which then has the --mpp of its own; in place of those "
+             "that the tasks make");
+  add_option("map-to-world", po::value<std::string>(),
+             "yaml file of its `places`, here and there; default: the drawing's own");
   add_option("variants", po::value<std::string>(),
              "file of the VARIANTs; default: variants/ablation.yaml of --config");
   add_option("episodes", po::value<int>()->default_value(50), "in each world");
@@ -223,6 +230,17 @@ int run(int argc, char** argv) {
   plan.tasks = list_of(given, "task");
   for (const std::string& mpp : list_of(given, "mpp")) {
     plan.mpps.push_back(resolution_of(mpp));
+  }
+  if (given.count("map") != 0) {
+    plan.map = given["map"].as<std::string>();
+    plan.map_to_world =
+        given.count("map-to-world") != 0 ? given["map-to-world"].as<std::string>() : plan.map;
+    if (plan.worlds.size() != 1 || !given["mpp"].defaulted()) {
+      throw std::runtime_error("--map goes with a single --world and without --mpp");
+    }
+    std::ostringstream mpp;
+    mpp << cmn::read_map(plan.map).resolution();
+    plan.mpps = {resolution_of(mpp.str())};
   }
   plan.episodes = positive(given, "episodes");
   plan.jobs = positive(given, "jobs");

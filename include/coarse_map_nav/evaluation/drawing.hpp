@@ -8,16 +8,17 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/evaluation/smooth_warp.hpp"
+#include "coarse_map_nav/mapping/place_warp.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace cmn {
 
-/// A map for the robot, and where the points of the metric world lie on it.
-///
-/// The correspondence holds on the whole plane, in both directions, to 1e-6 m. The robot must never
-/// see it. Cheap to copy.
+/// A map for the robot, and where the points of the metric world lie on it: this
+/// holds in both directions to 1e-6 m, of somebody's drawing near its places. The robot must
+/// never see it. Cheap to copy.
 class Drawing {
  public:
   /// A map to scale, in the frame of the world.
@@ -26,6 +27,8 @@ class Drawing {
   /// `mean_scale`: map metres a world metre on average, `scale` times the warp's own mean.
   Drawing(CoarseMap map, SmoothWarp warp, double scale, int quarter_turns, Point2 shift,
           double mean_scale);
+  /// Of somebody's, see given_drawing(). `guess`: from the map to the world, about.
+  Drawing(CoarseMap map, PlaceWarp places, PlaceWarp guess, double mean_scale);
 
   const CoarseMap& map() const { return content_->map; }
   /// [m] in the world -> [m, nominal] in the frame of the map.
@@ -39,7 +42,7 @@ class Drawing {
   Jacobian2 jacobian(Point2 world) const;
   /// Nominal map metres a world metre, on average over the free space of the world.
   double scale() const { return content_->mean_scale; }
-  /// By how many quarter turns to the left the drawing is turned, 0 to 3.
+  /// The drawing is turned by so many quarter turns to the left, 0 to 3.
   int quarter_turns() const { return content_->quarter_turns; }
 
  private:
@@ -50,18 +53,18 @@ class Drawing {
     int quarter_turns = 0;
     Point2 shift;
     double mean_scale = 1.0;
+    std::optional<PlaceWarp> places;  ///< in place of warp, scale, turns and shift
+    std::optional<PlaceWarp> guess;
   };
   std::shared_ptr<const Content> content_;
 };
 
 /// The coarse grid of the CMN paper (downsampled()): a cell of `mpp` metres is occupied when more
-/// than half of it is. To scale, in the frame of the world. For the floor plan of a generated
-/// house, hand it the house's walls.
+/// than half of it is. To scale, in the frame of the world. A generated house's walls: its plan.
 ///
 /// With a clearance, ground counts as occupied where the middle of a disc of that radius [m] cannot
-/// be. Habitat's maps of Gibson, which CMN makes coarse, are of this kind: their walls are twice
-/// the robot's radius thicker than the real ones. Without it, a wall thinner than half a cell is
-/// lost. Throws std::invalid_argument as downsampled() does.
+/// be, as on Habitat's maps of Gibson that CMN makes coarse: walls are thicker by the radius on
+/// each side. Without it, a wall thinner than half a cell is lost. Throws as downsampled() does.
 Drawing coarse_grid(const CoarseMap& world, double mpp, double clearance_m = 0.0);
 
 /// What counts as furniture in a building that nobody has labelled.

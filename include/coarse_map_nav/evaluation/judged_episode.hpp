@@ -31,6 +31,7 @@ struct Scene {
   World world;
   RouteSampler routes;
   CoarseMap drivable;  ///< where the middle of the robot can be: what the oracle plans on
+  std::optional<Drawing> drawing;  ///< given, in place of those that the tasks make
 };
 
 /// The start and goal of an episode whose goal is free on the drawing, or none.

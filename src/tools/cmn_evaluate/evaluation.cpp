@@ -3,6 +3,7 @@
 #include "evaluation.hpp"
 
 #include "coarse_map_nav/evaluation/episode_group.hpp"
+#include "coarse_map_nav/evaluation/given_drawing.hpp"
 #include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/evaluation/progress.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
@@ -115,7 +116,9 @@ std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int ind
   return mixed(value + static_cast<std::uint64_t>(index));
 }
 
-std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge) {
+namespace {
+
+std::unique_ptr<Scene> read_world(const std::string& world, const JudgeParams& judge) {
   constexpr double kHouseCell_m = 0.05;
   try {
     if (is_house(world)) {
@@ -130,6 +133,22 @@ std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& j
   }
 }
 
+}  // namespace
+
+std::unique_ptr<Scene> read_scene(const std::string& world, const Plan& plan) {
+  std::unique_ptr<Scene> scene = read_world(world, plan.judge);
+  if (!plan.map.empty()) {
+    CoarseMap map = read_map(plan.map);
+    const std::vector<Place> places = read_places(plan.map_to_world).places;
+    try {
+      scene->drawing = given_drawing(std::move(map), places, scene->map);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error(plan.map + " with " + plan.map_to_world + ": " + e.what());
+    }
+  }
+  return scene;
+}
+
 std::vector<std::uint64_t> seeds_of(std::uint64_t seed) {
   return {seed, mixed(seed + 1), mixed(seed + 2)};
 }
@@ -137,8 +156,10 @@ std::vector<std::uint64_t> seeds_of(std::uint64_t seed) {
 std::optional<Stage> stage(const Scene& scene, const Task& task, double mpp,
                            const JudgeParams& judge, std::uint64_t seed) {
   for (const std::uint64_t tried : seeds_of(seed)) {
-    Drawing drawing = draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, mpp,
-                           static_cast<std::uint32_t>(tried), judge.simulation.robot.radius_m);
+    Drawing drawing =
+        scene.drawing ? *scene.drawing
+                      : draw(task, scene.map, scene.walls ? &*scene.walls : nullptr, mpp,
+                             static_cast<std::uint32_t>(tried), judge.simulation.robot.radius_m);
     if (const auto route = sample_route(scene, drawing, judge, tried)) {
       return Stage{std::move(drawing), *route, tried};
     }
@@ -158,7 +179,7 @@ Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{lo
   }
   std::set<std::string> names;
   for (const std::string& world : plan.worlds) {
-    scenes_.push_back(read_scene(world, plan.judge));
+    scenes_.push_back(read_scene(world, plan));
     if (!names.insert(scenes_.back()->name).second) {
       throw std::runtime_error(world + ": another world is called " + scenes_.back()->name);
     }

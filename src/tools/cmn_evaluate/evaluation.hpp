@@ -25,6 +25,8 @@ namespace cmn {
 /// What is asked for.
 struct Plan {
   std::vector<std::string> worlds;
+  std::string map;           ///< a drawing of the only world, in place of those that the tasks make
+  std::string map_to_world;  ///< the file of its places
   std::vector<std::string> tasks;
   std::vector<double> mpps;
   std::vector<Method> methods;
@@ -46,8 +48,9 @@ double seconds();
 std::vector<std::string> expand_houses(const std::vector<std::string>& worlds);
 /// What a world is called in episodes: the name of its file, or house:SEED.
 std::string scene_name(const std::string& world);
-/// Reads a map, or generates a house. Throws std::runtime_error naming the world.
-std::unique_ptr<Scene> read_scene(const std::string& world, const JudgeParams& judge);
+/// Reads a map, or generates a house, and what drawing is given of it. Throws std::runtime_error
+/// naming the world or the drawing.
+std::unique_ptr<Scene> read_scene(const std::string& world, const Plan& plan);
 /// The same for all methods, tasks and drawings: what differs between rows is the method. Worlds go
 /// by their names, so that a run may be split by worlds, too.
 std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index);

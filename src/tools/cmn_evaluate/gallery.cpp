@@ -55,7 +55,7 @@ void leave_gallery(const Plan& plan, std::size_t count) {
     for (const EpisodeRow& row : worst_episodes(rows, count)) {
       std::unique_ptr<Scene>& scene = scenes[row.key.world];
       if (!scene) {
-        scene = read_scene(world_of(plan, row.key), plan.judge);
+        scene = read_scene(world_of(plan, row.key), plan);
       }
       EpisodeKey key = row.key;
       key.seed = episode_seed(plan.seed, key.world, key.index);

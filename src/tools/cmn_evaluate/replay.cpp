@@ -149,7 +149,7 @@ void replay(const Plan& plan, const std::vector<std::string>& ids,
   for (const std::string& id : ids) {
     EpisodeKey key = parse_episode_id(id);
     key.seed = episode_seed(plan.seed, key.world, key.index);
-    const std::unique_ptr<Scene> scene = read_scene(world_of(plan, key), plan.judge);
+    const std::unique_ptr<Scene> scene = read_scene(world_of(plan, key), plan);
     const Recording recording = run_again(plan, *scene, key, explained);
     std::cout << csv_header() << "\n" << csv_line(recording.trace.row) << "\n";
     if (recording.trace.steps.empty()) {

@@ -307,5 +307,59 @@ TEST(SampleRoute, ItsGoalIsFreeOnTheDrawing) {
   }
 }
 
+TEST(JudgedEpisode, TheWayMayCountAsCommanded) {
+  Setting setting;
+  setting.task = "CG";  // without a guard
+  setting.method = "rnd";
+  setting.max_actions = 80;
+  const Scene scene = corridor();
+  const EpisodeRow driven = run(scene, along(0.0), setting);
+  setting.judge.counts_commanded_way = true;
+  const EpisodeRow commanded = run(scene, along(0.0), setting);
+  ASSERT_GT(driven.collisions, 0);
+  EXPECT_EQ(commanded.collisions, driven.collisions);
+  const double steps = commanded.driven_m / 0.15;
+  EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  EXPECT_GT(commanded.driven_m, driven.driven_m);
+}
+
+TEST(JudgedEpisode, ThePapersRobotSlidesUnlessToldNotTo) {
+  // At 45 degrees into the wall: who slides comes on along it.
+  const Scene scene = corridor();
+  Setting setting;
+  setting.task = "CG";
+  setting.method = "cmn";
+  setting.max_actions = 60;
+  const EpisodeRow sliding = run(scene, along(kPi / 4.0), setting);
+  setting.judge.papers_robot_slides = false;
+  const EpisodeRow stopping = run(scene, along(kPi / 4.0), setting);
+  EXPECT_GT(sliding.driven_m, stopping.driven_m);
+}
+
+TEST(JudgedEpisode, WhoGoesOnAtTheGoalMayHaveToStartOver) {
+  const Scene scene = flat();
+  const Route route{{1.55, 1.55, 0.0}, {7.05, 4.55}, 7.0};
+  Setting setting;
+  setting.task = "CG";
+  setting.method = "cmn";
+  setting.judge.success_radius_m = 0.05;  // so that it goes on
+  const auto confidence_after_arrival = [&](bool forgets) {
+    setting.judge.forgets_at_goal = forgets;
+    std::optional<double> confidence;
+    bool has_arrived = false;
+    run(scene, route, setting, [&](const EpisodeMoment& moment) {
+      if (has_arrived && !confidence) {
+        confidence = moment.localization.confidence;
+      }
+      has_arrived = moment.decision.state == NavigationState::kReached;
+    });
+    return confidence;
+  };
+  const auto kept = confidence_after_arrival(false);
+  const auto started_over = confidence_after_arrival(true);
+  ASSERT_TRUE(kept && started_over);
+  EXPECT_LT(*started_over, 0.5 * *kept);
+}
+
 }  // namespace
 }  // namespace cmn
