@@ -15,7 +15,6 @@
 
 #include "office.hpp"
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 namespace cmn {
 namespace {
@@ -28,13 +27,16 @@ NavigatorParams preset(const std::string& name, int scales) {
   return params;
 }
 
-/// Of this process [MB]; 0 where the system does not tell.
-double resident_mb() {
-  std::ifstream file{"/proc/self/statm"};
-  double all = 0.0;
-  double resident = 0.0;
-  file >> all >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+/// What /proc/self/status says of this process [MB]; 0 where there is none.
+double memory_mb(const std::string& entry) {
+  std::ifstream file{"/proc/self/status"};
+  for (std::string word; file >> word;) {
+    double kib = 0.0;
+    if (word == entry + ":" && file >> kib) {
+      return kib * 1024.0 / 1e6;
+    }
+  }
+  return 0.0;
 }
 
 /// A robot in an office that is drawn as it is.
@@ -43,7 +45,7 @@ class Journey {
   Journey(const CoarseMap& map, const NavigatorParams& params)
       : map_{map},
         world_{map},
-        before_mb_{resident_mb()},
+        before_mb_{memory_mb("VmRSS")},
         navigator_{map, params},
         robot_{world_, RobotParams{}, *world_.random_free_pose(0.3, places_, 0.0), 1},
         lidar_{LidarParams{}, 1} {
@@ -51,7 +53,8 @@ class Journey {
   }
 
   Navigator& navigator() { return navigator_; }
-  double navigator_mb() const { return resident_mb() - before_mb_; }
+  /// At its most, where it is the first journey of the process.
+  double navigator_mb() const { return memory_mb("VmHWM") - before_mb_; }
   void look() { scan_ = lidar_.measure(world_, robot_.truth(), 0.0); }
   void think() { decision_ = navigator_.step(scan_, robot_.T_odom_robot(), outcome_); }
   /// False when there was nothing to do and a new goal is set.

@@ -38,7 +38,7 @@ double Judge::off_goal_m(const StepDrive& robot) const {
 }
 
 void Judge::look_at(const StepDrive& robot) {
-  row_.driven_m = robot.driven_m();
+  row_.driven_m = driven_m(robot);
   row_.collisions = robot.collisions();
   if (is_before_drop()) {
     return;
@@ -47,7 +47,7 @@ void Judge::look_at(const StepDrive& robot) {
   row_.closest_m = std::min(row_.closest_m, off_m);
   if (!row_.is_success && off_m < params_.success_radius_m) {
     row_.is_success = true;
-    row_.success_driven_m = robot.driven_m();
+    row_.success_driven_m = row_.driven_m;
     row_.success_actions = row_.actions;
   }
 }
@@ -78,6 +78,11 @@ void Judge::look_at(const Localization& at, const CoarseMap& map, const Pose2& T
   }
 }
 
+void Judge::count_action(const Action& action) {
+  ++row_.actions;
+  commanded_m_ += action.type == ActionType::kMoveForward ? action.distance_m : 0.0;
+}
+
 void Judge::hear_reached(const StepDrive& robot) {
   if (!row_.is_declared && !is_before_drop()) {
     row_.is_declared = true;
@@ -95,7 +100,7 @@ void Judge::drop(StepDrive& robot, const Route& from_there) {
   robot.set_truth(from_there.T_world_start);
   row_.drop_actions = row_.actions;
   row_.T_world_drop = from_there.T_world_start;
-  row_.drop_driven_m = robot.driven_m();
+  row_.drop_driven_m = driven_m(robot);
   row_.drop_shortest_m = from_there.shortest_m;
   row_.closest_m = off_goal_m(robot);
   right_looks_ = 0;

@@ -156,7 +156,7 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   params.localization.seed = seed();
   params.planning.seed = seed();
   SimulationParams simulation = judge.simulation;
-  simulation.robot.sliding = simulation.robot.sliding || task.has_paper_setting;
+  simulation.robot.sliding |= task.has_paper_setting && judge.papers_robot_slides;
   if (task.observation == ObservationKind::kForwardLidar) {
     simulation.lidar.field_of_view_deg = 180.0;
     simulation.lidar.beams = simulation.lidar.beams / 2 + 1;
@@ -240,13 +240,18 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       }
       navigator.planner().set_goal(goal.position());
       decision.action = any_action(rng, params.planning.step_m);
+      if (judge.forgets_at_goal) {
+        navigator.localizer().reset_heading(at.estimate.heading);
+      }
     }
     if (is_at_horizon || (method.ends_by_judge && row.is_success)) {
       row.end = row.is_success ? "success" : "horizon";
       break;
     }
     last_outcome = robot.carry_out(decision.action);
-    the_judge.count_action();
+    if (!decision.is_pivot) {
+      the_judge.count_action(decision.action);
+    }
     the_judge.look_at(robot);
     if (the_judge.is_time_to_kidnap(robot)) {
       kidnap();

@@ -20,16 +20,6 @@ constexpr Estimate kNoEstimate{Heading::kEast, {-1, -1}, 0.0};
 /// takes many times as long.
 constexpr double kTiny = 1e-250;
 
-/// Less than this share of a cell is no motion but the rounding of sines; each motion costs a pass.
-constexpr double kNoShare = 1e-12;
-
-/// By kind of neighbourhood: what a cell keeps of its own weight, and takes of the cell's behind
-/// it.
-struct Shares {
-  std::vector<double> stay;
-  std::vector<double> come;
-};
-
 struct RowSummary {
   double sum = 0.0;
   double peak = 0.0;
@@ -40,23 +30,19 @@ using Pair = double __attribute__((vector_size(16)));
 Pair pair_at(const double* p) { return Pair{p[0], p[1]}; }
 Pair max(Pair a, Pair b) { return a > b ? a : b; }
 
-/// One row of a filter step: out = L * moved(in), for `count` cells. `likelihood` holds a further
-/// factor for each cell, or is null.
-template <bool kIsByCell>
-RowSummary step_row(const double* in, const double* in_behind, const std::uint16_t* kinds,
-                    const Shares& shares, const double* likelihood, int count, double* out) {
-  const double* stay = shares.stay.data();
-  const double* come = shares.come.data();
+/// Some neighbours of a filter step: out = moved(in), weighed. `Shares`: of each kind of cells.
+template <class Shares>
+RowSummary step_run(const double* in, const double* in_behind, const std::uint32_t* kinds,
+                    const Shares* shares, int count, double* out) {
   const Pair tiny{kTiny, kTiny};
   Pair sum{};
   Pair peak{};
   int i = 0;
   for (; i + 2 <= count; i += 2) {
-    Pair weight = Pair{stay[kinds[i]], stay[kinds[i + 1]]} * pair_at(in + i) +
-                  Pair{come[kinds[i]], come[kinds[i + 1]]} * pair_at(in_behind + i);
-    if constexpr (kIsByCell) {
-      weight *= pair_at(likelihood + i);
-    }
+    const Shares& first = shares[kinds[i]];
+    const Shares& second = shares[kinds[i + 1]];
+    Pair weight = Pair{first.stay, second.stay} * pair_at(in + i) +
+                  Pair{first.come, second.come} * pair_at(in_behind + i);
     weight = weight > tiny ? weight : Pair{};
     out[i] = weight[0];
     out[i + 1] = weight[1];
@@ -64,10 +50,8 @@ RowSummary step_row(const double* in, const double* in_behind, const std::uint16
     peak = max(peak, weight);
   }
   if (i < count) {
-    double weight = stay[kinds[i]] * in[i] + come[kinds[i]] * in_behind[i];
-    if constexpr (kIsByCell) {
-      weight *= likelihood[i];
-    }
+    const Shares& last = shares[kinds[i]];
+    const double weight = last.stay * in[i] + last.come * in_behind[i];
     out[i] = weight > kTiny ? weight : 0.0;
     sum[0] += out[i];
     peak[0] = std::max(peak[0], out[i]);
@@ -87,7 +71,7 @@ BeliefFilter::BeliefFilter(CoarseMap map, const LocalizationParams& params)
       params_{params},
       motion_{make_motion_model(params.motion, map_.resolution())},
       measurement_{make_measurement_model(params.measurement, map_)},
-      kinds_{map_},
+      shares_(measurement_->kinds().size()),
       rng_{params.seed},
       scratch_{map_.width(), map_.height()} {
   for (RowPeaks* peaks : {&peaks_, &scratch_peaks_}) {
@@ -127,23 +111,9 @@ bool BeliefFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
   return true;
 }
 
-std::vector<BeliefFilter::Shift> BeliefFilter::shifts(const std::vector<CellStep>& steps) {
-  std::vector<Shift> shifts;
-  for (const CellStep& step : steps) {
-    if (std::abs(step.forward) > kNoShare) {
-      shifts.push_back({step.forward > 0.0 ? 0 : 2, std::abs(step.forward)});
-    }
-    if (std::abs(step.left) > kNoShare) {
-      shifts.push_back({step.left > 0.0 ? 1 : 3, std::abs(step.left)});
-    }
-  }
-  return shifts;
-}
-
 double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* likelihood,
                            double least) {
-  const std::size_t kinds = kinds_.codes.size();
-  Shares shares{std::vector<double>(kinds, 0.0), std::vector<double>(kinds, 0.0)};
+  const WindowKinds& kinds = measurement_->kinds();
   double total = 0.0;
   for (const Heading h : kHeadings) {
     const auto k = static_cast<std::size_t>(index(h));
@@ -155,28 +125,14 @@ double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* lik
       continue;
     }
     const Cell step = unit_step(turned(h, shift.quarter_turn - rolled));
-    const double* values = likelihood == nullptr ? nullptr : likelihood->values[k].data();
-    const bool is_by_cell = values != nullptr && !likelihood->is_by_neighbourhood;
-    for (std::size_t kind = 1; kind < kinds; ++kind) {
-      const std::uint16_t code = kinds_.codes[kind];
-      const bool may_leave = (code & neighbour_bit(step)) == 0;
+    for (std::size_t kind = 1; kind < kinds.size(); ++kind) {
+      const bool may_leave = (kinds.neighbourhoods[kind] & neighbour_bit(step)) == 0;
       // With the factor in it, the weights stay near 1 in sum however many steps there are.
       const double weight =
-          belief_.factor() * (values == nullptr || is_by_cell ? 1.0 : values[code]);
-      shares.stay[kind] = weight * (may_leave ? 1.0 - shift.share : 1.0);
-      shares.come[kind] = weight * shift.share;
+          belief_.factor() * (likelihood == nullptr ? 1.0 : (*likelihood)[k][kind]);
+      shares_[kind] = {weight * (may_leave ? 1.0 - shift.share : 1.0), weight * shift.share};
     }
-    const auto step_of_row = is_by_cell ? step_row<true> : step_row<false>;
-    for (int y = 0; y < map_.height(); ++y) {
-      const std::size_t first = belief_.padded_index({0, y});
-      const std::vector<double>& in = belief_.layer(h);
-      const RowSummary row =
-          step_of_row(in.data() + first, in.data() + belief_.padded_index(Cell{0, y} - step),
-                      kinds_.of_cell.data() + first, shares, is_by_cell ? values + first : nullptr,
-                      map_.width(), scratch_.layer(h).data() + first);
-      total += row.sum;
-      scratch_peaks_[k][static_cast<std::size_t>(y)] = row.peak;
-    }
+    total += step_layer(h, step);
   }
   if (!(total > least) || !std::isfinite(total)) {
     return 0.0;
@@ -184,6 +140,38 @@ double BeliefFilter::apply(const Shift& shift, int rolled, const Likelihood* lik
   scratch_.set_factor(1.0 / total);
   std::swap(belief_, scratch_);
   std::swap(peaks_, scratch_peaks_);
+  return total;
+}
+
+double BeliefFilter::step_layer(Heading heading, Cell step) {
+  const std::vector<double>& peaks = peaks_[static_cast<std::size_t>(index(heading))];
+  std::vector<double>& new_peaks = scratch_peaks_[static_cast<std::size_t>(index(heading))];
+  const double* in = belief_.layer(heading).data();
+  double* out = scratch_.layer(heading).data();
+  const WindowKinds& map = measurement_->kinds();
+  const auto holds = [&](int y) {
+    return y >= 0 && y < map_.height() && peaks[static_cast<std::size_t>(y)] > 0.0;
+  };
+  double total = 0.0;
+  for (auto run = map.runs.begin(); run != map.runs.end();) {
+    const int y = run->first.y;
+    double& new_peak = new_peaks[static_cast<std::size_t>(y)];
+    const bool comes_something = holds(y) || holds(y - step.y);
+    const bool must_clear = new_peak > 0.0;
+    new_peak = 0.0;
+    for (; run != map.runs.end() && run->first.y == y; ++run) {
+      const std::size_t first = belief_.padded_index(run->first);
+      if (comes_something) {
+        const RowSummary done =
+            step_run(in + first, in + belief_.padded_index(run->first - step),
+                     map.of_cell.data() + first, shares_.data(), run->count, out + first);
+        total += done.sum;
+        new_peak = std::max(new_peak, done.peak);
+      } else if (must_clear) {
+        std::fill_n(out + first, run->count, 0.0);
+      }
+    }
+  }
   return total;
 }
 

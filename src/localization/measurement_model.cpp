@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/measurement_model.hpp"
 
-#include "coarse_map_nav/data/belief.hpp"
-#include "coarse_map_nav/localization/neighbourhood.hpp"
+#include "coarse_map_nav/data/whole_number.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <opencv2/core.hpp>
 
@@ -56,125 +56,151 @@ Cell in_map_axes(int w, int n, Heading h) {
   return turned(from_middle, index(h));
 }
 
+/// Of some cells of an observation: how many count, and how much of them is occupied.
+struct Tally {
+  double weight = 0.0;
+  double occupied = 0.0;
+  void add(double share, const Tally& cells) {
+    weight += share * cells.weight;
+    occupied += share * cells.occupied;
+  }
+};
+
+/// Of the cells [first, last), summed four at a time: with occupancies of 0, 0.5 and 1 that is
+/// exact.
+Tally tally_of(const LocalOccupancy& seen, bool unseen_counts, std::size_t first,
+               std::size_t last) {
+  std::array<double, 4> weight{};
+  std::array<double, 4> occupied{};
+  const auto add = [&](std::size_t i, std::size_t lane) {
+    const bool counts = unseen_counts || seen.confidence[i] > 0.0F;
+    weight[lane] += counts ? 1.0 : 0.0;
+    occupied[lane] += counts ? static_cast<double>(seen.occupancy[i]) : 0.0;
+  };
+  std::size_t i = first;
+  for (; i + 4 <= last; i += 4) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      add(i + lane, lane);
+    }
+  }
+  for (; i < last; ++i) {
+    add(i, 0);
+  }
+  return {weight[0] + weight[1] + weight[2] + weight[3],
+          occupied[0] + occupied[1] + occupied[2] + occupied[3]};
+}
+
+/// A stretch of a row of fine cells of which the same share lies in a coarse one.
+struct Stretch {
+  int first;
+  int last;  ///< not included
+  int bin;
+  double share;
+};
+
+/// A row of `size` fine cells cut at the borders of the n coarse ones: a fine cell on a border has
+/// a share in both.
+std::vector<Stretch> stretches(int size, double fine_m, double coarse_m, int n) {
+  std::vector<Stretch> cut;
+  const auto add = [&](int i, int bin, double share) {
+    if (bin < 0 || bin >= n || share == 0.0) {
+      return;
+    }
+    if (share == 1.0 && !cut.empty() && cut.back().bin == bin && cut.back().share == 1.0) {
+      cut.back().last = i + 1;
+    } else {
+      cut.push_back({i, i + 1, bin, share});
+    }
+  };
+  const double middle = 0.5 * (size - 1);
+  for (int i = 0; i < size; ++i) {
+    const double low = (i - 0.5 - middle) * fine_m / coarse_m + 0.5 * n;
+    const double high = (i + 0.5 - middle) * fine_m / coarse_m + 0.5 * n;
+    const int first = static_cast<int>(std::floor(low));
+    const double border = first + 1.0;
+    const double part = high <= border ? 1.0 : (border - low) / (high - low);
+    add(i, first, part);
+    add(i, first + 1, 1.0 - part);
+  }
+  return cut;
+}
+
+void tally_by_area(const LocalOccupancy& seen, const MeasurementModelParams& params,
+                   std::vector<Tally>& bins) {
+  const int n = params.window_cells();
+  const std::vector<Stretch> cut = stretches(seen.size, seen.resolution, params.window_m / n, n);
+  for (const Stretch& rows : cut) {
+    for (int iy = rows.first; iy < rows.last; ++iy) {
+      for (const Stretch& x : cut) {
+        bins[static_cast<std::size_t>(rows.bin * n + x.bin)].add(
+            rows.share * x.share,
+            tally_of(seen, params.unseen_is_occupied, seen.index_of(x.first, iy),
+                     seen.index_of(x.last - 1, iy) + 1));
+      }
+    }
+  }
+}
+
+/// Each fine cell counts where its middle lies.
+void tally_by_centres(const LocalOccupancy& seen, const MeasurementModelParams& params,
+                      double residual_yaw_rad, std::vector<Tally>& bins) {
+  const int n = params.window_cells();
+  const double coarse_m = params.window_m / n;
+  const double c = std::cos(residual_yaw_rad) * seen.resolution / coarse_m;
+  const double s = std::sin(residual_yaw_rad) * seen.resolution / coarse_m;
+  const double middle = 0.5 * (seen.size - 1);
+  for (int iy = 0; iy < seen.size; ++iy) {
+    const auto position = [&](int ix) {
+      return Point2{c * (ix - middle) - s * (iy - middle) + 0.5 * n,
+                    s * (ix - middle) + c * (iy - middle) + 0.5 * n};
+    };
+    const auto bin_at = [&](Point2 p) { return Cell{whole_below(p.x), whole_below(p.y)}; };
+    // So far a row can go on from p before its x, or y, comes to the next border.
+    const auto room = [](double p, int bin, double slope) {
+      return slope > 0.0   ? (bin + 1 - p) / slope
+             : slope < 0.0 ? (bin - p) / slope
+                           : std::numeric_limits<double>::infinity();
+    };
+    for (int first = 0, last = 0; first < seen.size; first = last) {
+      const Point2 p = position(first);
+      const Cell bin = bin_at(p);
+      // To just before the border, and from there by looking.
+      const double way = std::min({room(p.x, bin.x, c), room(p.y, bin.y, s), double(seen.size)});
+      last = std::min(first + std::max(1, static_cast<int>(way)), seen.size);
+      while (last < seen.size && bin_at(position(last)) == bin) {
+        ++last;
+      }
+      if (bin.x >= 0 && bin.y >= 0 && bin.x < n && bin.y < n) {
+        bins[static_cast<std::size_t>(bin.y * n + bin.x)].add(
+            1.0, tally_of(seen, params.unseen_is_occupied, seen.index_of(first, iy),
+                          seen.index_of(0, iy) + static_cast<std::size_t>(last)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelParams& params,
                            double residual_yaw_rad) {
   const int n = params.window_cells();
-  const double cell_m = params.window_m / n;
-  const auto bins = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-  std::vector<double> weight(bins, 0.0);
-  std::vector<double> occupied(bins, 0.0);
-
-  const double middle = 0.5 * (seen.size - 1);
-  const auto counts = [&](std::size_t i) {
-    return params.unseen_is_occupied || seen.confidence[i] > 0.0F;
-  };
+  std::vector<Tally> bins(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
   if (residual_yaw_rad == 0.0) {
-    // A fine cell covers parts of up to 2 x 2 coarse ones; its share along each axis.
-    struct Share {
-      int bin;
-      double part;
-    };
-    std::vector<std::array<Share, 2>> shares;
-    for (int i = 0; i < seen.size; ++i) {
-      const double low = (i - 0.5 - middle) * seen.resolution / cell_m + 0.5 * n;
-      const double high = (i + 0.5 - middle) * seen.resolution / cell_m + 0.5 * n;
-      const int first = static_cast<int>(std::floor(low));
-      const double border = first + 1.0;
-      const double part = high <= border ? 1.0 : (border - low) / (high - low);
-      const auto share = [n](int bin, double p) {
-        return bin >= 0 && bin < n ? Share{bin, p} : Share{0, 0.0};
-      };
-      shares.push_back({share(first, part), share(first + 1, 1.0 - part)});
-    }
-    std::vector<double> row_weight(static_cast<std::size_t>(n));
-    std::vector<double> row_occupied(static_cast<std::size_t>(n));
-    for (int iy = 0; iy < seen.size; ++iy) {
-      std::fill(row_weight.begin(), row_weight.end(), 0.0);
-      std::fill(row_occupied.begin(), row_occupied.end(), 0.0);
-      for (int ix = 0; ix < seen.size; ++ix) {
-        const std::size_t i = seen.index_of(ix, iy);
-        if (counts(i)) {
-          for (const Share& x : shares[static_cast<std::size_t>(ix)]) {
-            row_weight[static_cast<std::size_t>(x.bin)] += x.part;
-            row_occupied[static_cast<std::size_t>(x.bin)] +=
-                x.part * static_cast<double>(seen.occupancy[i]);
-          }
-        }
-      }
-      for (const Share& y : shares[static_cast<std::size_t>(iy)]) {
-        const auto first = static_cast<std::size_t>(y.bin * n);
-        for (std::size_t x = 0; x < row_weight.size(); ++x) {
-          weight[first + x] += y.part * row_weight[x];
-          occupied[first + x] += y.part * row_occupied[x];
-        }
-      }
-    }
+    tally_by_area(seen, params, bins);
   } else {
-    const double c = std::cos(residual_yaw_rad) * seen.resolution / cell_m;
-    const double s = std::sin(residual_yaw_rad) * seen.resolution / cell_m;
-    // Neighbours mostly lie in the same bin: its sums are held until it changes.
-    std::size_t bin = 0;
-    double bin_weight = 0.0;
-    double bin_occupied = 0.0;
-    for (int iy = 0; iy < seen.size; ++iy) {
-      for (int ix = 0; ix < seen.size; ++ix) {
-        const double x = c * (ix - middle) - s * (iy - middle) + 0.5 * n;
-        const double y = s * (ix - middle) + c * (iy - middle) + 0.5 * n;
-        const std::size_t i = seen.index_of(ix, iy);
-        if (x >= 0.0 && y >= 0.0 && x < n && y < n && counts(i)) {
-          const auto here = static_cast<std::size_t>(static_cast<int>(y) * n + static_cast<int>(x));
-          if (here != bin) {
-            weight[bin] = bin_weight;
-            occupied[bin] = bin_occupied;
-            bin = here;
-            bin_weight = weight[bin];
-            bin_occupied = occupied[bin];
-          }
-          bin_weight += 1.0;
-          bin_occupied += static_cast<double>(seen.occupancy[i]);
-        }
-      }
-    }
-    weight[bin] = bin_weight;
-    occupied[bin] = bin_occupied;
+    tally_by_centres(seen, params, residual_yaw_rad, bins);
   }
-  std::vector<double> window(bins, 0.5);
-  for (std::size_t i = 0; i < bins; ++i) {
-    if (weight[i] > 0.0) {
-      window[i] = occupied[i] / weight[i];
-    }
+  std::vector<double> window;
+  for (const Tally& bin : bins) {
+    window.push_back(bin.weight > 0.0 ? bin.occupied / bin.weight : 0.5);
   }
   return window;
 }
 
 OverlapModel::OverlapModel(const CoarseMap& map, const MeasurementModelParams& params)
-    : params_{params}, map_{map} {
-  likelihood_.is_by_neighbourhood = params.window_cells() == 3;
-  const std::size_t count = likelihood_.is_by_neighbourhood
-                                ? kNeighbourhoods
-                                : Belief(map.width(), map.height()).padded_size();
-  for (auto& values : likelihood_.values) {
-    values.assign(count, 0.0);
-  }
-  const int reach = params.window_reach;
-  for (int y = -reach; y < map.height() + reach && !likelihood_.is_by_neighbourhood; ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      std::uint32_t code = 0;
-      for (int i = 0; i < params.window_cells(); ++i) {
-        code |= (map.is_occupied({x - reach + i, y}) ? 1U : 0U) << static_cast<unsigned>(i);
-      }
-      row_codes_.push_back(code);
-    }
-  }
-  const Belief layout{map.width(), map.height()};
-  for (std::size_t i = 0; i < map.occupied().size(); ++i) {
-    const Cell c = map.occupied().cell_at(i);
-    if (map.is_free(c)) {
-      free_cells_.push_back(
-          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(layout.padded_index(c))});
-    }
+    : params_{params}, kinds_{map, params.window_reach}, sums_(kinds_.pieces) {
+  for (std::vector<double>& values : likelihood_) {
+    values.assign(kinds_.size(), 0.0);
   }
 }
 
@@ -182,37 +208,16 @@ const Likelihood& OverlapModel::measure(const LocalOccupancy& seen, double resid
                                         double weight, const HeadingSet& headings) {
   const std::vector<double> window = reduce(seen, params_, residual_yaw_rad);
   for (const Heading h : kHeadings) {
-    if (!headings[static_cast<std::size_t>(index(h))]) {
-      continue;
-    }
-    if (likelihood_.is_by_neighbourhood) {
-      fill_by_neighbourhood(window, h, weight * params_.exponent);
-    } else {
-      fill_by_cell(window, h, weight * params_.exponent);
+    if (headings[static_cast<std::size_t>(index(h))]) {
+      fill(window, h, weight * params_.exponent);
     }
   }
   return likelihood_;
 }
 
-void OverlapModel::fill_by_neighbourhood(const std::vector<double>& window, Heading heading,
-                                         double exponent) {
+void OverlapModel::fill(const std::vector<double>& window, Heading heading, double exponent) {
   // |m_hat - m| is m_hat where the map is free and 1 - m_hat where it is occupied: linear in the
   // map's bits.
-  std::vector<double>& table = likelihood_.values[static_cast<std::size_t>(index(heading))];
-  std::array<double, 9> by_bit{};
-  double free_everywhere = 9.0;
-  for (int w = 0; w < 9; ++w) {
-    const double m_hat = window[static_cast<std::size_t>(w)];
-    const Cell offset = in_map_axes(w, 3, heading);
-    by_bit[static_cast<std::size_t>((offset.y + 1) * 3 + offset.x + 1)] = (2.0 * m_hat - 1.0) / 9.0;
-    free_everywhere -= m_hat;
-  }
-  fill_subset_sums(free_everywhere / 9.0, by_bit.data(), 9, table.data());
-  raise(table, exponent);
-}
-
-void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading heading,
-                                double exponent) {
   const int n = params_.window_cells();
   std::vector<double> by_bit(window.size());
   double free_everywhere = n * n;
@@ -223,30 +228,19 @@ void OverlapModel::fill_by_cell(const std::vector<double>& window, Heading headi
         (2.0 * m_hat - 1.0) / (n * n);
     free_everywhere -= m_hat;
   }
-  // The rows of the window, in parts of at most 9 bits.
-  struct Part {
-    std::size_t row;
-    unsigned first_bit;
-    std::array<double, kNeighbourhoods> sums;
-  };
-  std::vector<Part> parts;
-  for (int row = 0; row < n; ++row) {
-    for (int bit = 0; bit < n; bit += 9) {
-      parts.push_back({static_cast<std::size_t>(row), static_cast<unsigned>(bit), {}});
-      fill_subset_sums(parts.size() == 1 ? free_everywhere / (n * n) : 0.0,
-                       by_bit.data() + row * n + bit, std::min(9, n - bit),
-                       parts.back().sums.data());
-    }
+  for (std::size_t piece = 0; piece < sums_.size(); ++piece) {
+    const int first = static_cast<int>(piece) * kPieceBits;
+    fill_subset_sums(piece == 0 ? free_everywhere / (n * n) : 0.0, by_bit.data() + first,
+                     std::min(kPieceBits, n * n - first), sums_[piece].data());
   }
-  const auto width = static_cast<std::size_t>(map_.width());
-  std::vector<double>& values = likelihood_.values[static_cast<std::size_t>(index(heading))];
-  for (const FreeCell& cell : free_cells_) {
-    const std::uint32_t* codes = row_codes_.data() + cell.index;
-    double sum = 0.0;
-    for (const Part& part : parts) {
-      sum += part.sums[(codes[part.row * width] >> part.first_bit) % kNeighbourhoods];
+  std::vector<double>& values = likelihood_[static_cast<std::size_t>(index(heading))];
+  const std::uint16_t* codes = kinds_.codes.data();
+  for (double& value : values) {
+    double sum = sums_[0][*codes++];
+    for (std::size_t piece = 1; piece < sums_.size(); ++piece) {
+      sum += sums_[piece][*codes++];
     }
-    values[cell.padded] = sum;
+    value = sum;
   }
   raise(values, exponent);
 }

@@ -9,6 +9,25 @@
 #include <cmath>
 
 namespace cmn {
+namespace {
+
+/// Less than this share of a cell is no motion; each motion costs a pass over the belief.
+constexpr double kNoShare = 1e-12;
+
+}  // namespace
+
+std::vector<Shift> shifts(const std::vector<CellStep>& steps) {
+  std::vector<Shift> shifts;
+  for (const CellStep& step : steps) {
+    if (std::abs(step.forward) > kNoShare) {
+      shifts.push_back({step.forward > 0.0 ? 0 : 2, std::abs(step.forward)});
+    }
+    if (std::abs(step.left) > kNoShare) {
+      shifts.push_back({step.left > 0.0 ? 1 : 3, std::abs(step.left)});
+    }
+  }
+  return shifts;
+}
 
 std::vector<CellStep> NoisyMotionModel::steps(const Displacement& driven,
                                               std::mt19937_64& rng) const {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/localization/range_table.hpp"
 
-#include "coarse_map_nav/data/belief.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,24 +57,29 @@ std::uint8_t LogRange::coded(double range_m) const {
 }
 
 RangeTable::RangeTable(const CoarseMap& map, const LogRange& code) {
-  const Belief layout{map.width(), map.height()};
-  row_of_.assign(layout.padded_size(), -1);
+  const auto stride = static_cast<std::size_t>(map.width() + 2);
+  row_of_.assign(stride * static_cast<std::size_t>(map.height() + 2), -1);
   std::array<Point2, kBearings> ahead;
   for (int b = 0; b < kBearings; ++b) {
     ahead[static_cast<std::size_t>(b)] = turned(Point2{1.0, 0.0}, bearing_rad(b));
   }
   const double reach = code.longest_m / map.resolution();
-  std::int32_t rows = 0;
+  // By far the largest table there is: no larger than it need be, even while it is made.
+  std::vector<Cell> cells;
   for (std::size_t i = 0; i < map.occupied().size(); ++i) {
     const Cell c = map.occupied().cell_at(i);
     if (map.is_free(c) || is_beside_free(map, c)) {
-      row_of_[layout.padded_index(c)] = rows++;
-      for (const Point2& direction : ahead) {
-        codes_.push_back(code.coded(map.resolution() * cast(map, c, direction, reach)));
-      }
+      row_of_[static_cast<std::size_t>(c.y + 1) * stride + static_cast<std::size_t>(c.x + 1)] =
+          static_cast<std::int32_t>(cells.size());
+      cells.push_back(c);
     }
   }
-  codes_.shrink_to_fit();  // by far the largest table there is
+  codes_.reserve(cells.size() * ahead.size());
+  for (const Cell c : cells) {
+    for (const Point2& direction : ahead) {
+      codes_.push_back(code.coded(map.resolution() * cast(map, c, direction, reach)));
+    }
+  }
 }
 
 }  // namespace cmn

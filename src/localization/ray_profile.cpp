@@ -6,6 +6,13 @@
 #include <cmath>
 
 namespace cmn {
+namespace {
+
+/// So far from its middle the robot itself stands: a sensor before the middle that does not look
+/// back leaves that unseen.
+constexpr double kOwnBody_m = 0.2;
+
+}  // namespace
 
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m) {
   RayProfile profile;
@@ -21,6 +28,9 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
           static_cast<int>(std::floor(range * ahead.y / seen.resolution + 0.5 * seen.size));
       const std::size_t i = seen.index_of(ix, iy);
       if (seen.confidence[i] <= 0.0F) {
+        if (range < kOwnBody_m) {
+          continue;
+        }
         break;
       }
       ray.range_m = range;

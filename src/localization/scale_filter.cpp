@@ -46,9 +46,11 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
     log_of_free_.push_back(static_cast<float>(std::log(free + params.range_random)));
   }
   log_of_rim_ = std::log(params.rim_penalty + 1e-9);
-  scratch_.assign(belief_.padded_size(), 0.0F);
+  scratch_ = no_weights();
   reset();
 }
+
+WeightLayer ScaleFilter::no_weights() const { return {belief_.padded_size(), most_listed()}; }
 
 double ScaleFilter::spread(const Weights& weight_of, double each) {
   double total = 0.0;
@@ -57,8 +59,8 @@ double ScaleFilter::spread(const Weights& weight_of, double each) {
     const double prior = each * std::exp(-0.5 * off * off);
     for (const Heading heading : kHeadings) {
       const auto layer = static_cast<std::size_t>(index(heading));
-      std::vector<float>& weight = sheet.weight[layer];
-      std::vector<std::uint32_t>& support = sheet.support[layer];
+      WeightLayer& weights = sheet.layers[layer];
+      weights.unlist();
       for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
         const Cell c = map_.occupied().cell_at(i);
         const std::size_t at = belief_.padded_index(c);
@@ -67,12 +69,10 @@ double ScaleFilter::spread(const Weights& weight_of, double each) {
             table_.may_stand(at)
                 ? static_cast<float>(prior * share * weight_of(heading, sheet.turn_rad, c))
                 : 0.0F;
-        if (more > 0.0F && weight[at] == 0.0F) {
-          support.push_back(static_cast<std::uint32_t>(at));
-        }
-        weight[at] += more;
+        weights.add(static_cast<std::uint32_t>(at), more);
         total += static_cast<double>(more);
       }
+      weights.settle();
     }
   }
   return total;
@@ -81,10 +81,7 @@ double ScaleFilter::spread(const Weights& weight_of, double each) {
 void ScaleFilter::start(const Weights& weight_of) {
   for (Sheet& sheet : sheets_) {
     sheet.offset = {};
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      sheet.weight[layer].assign(belief_.padded_size(), 0.0F);
-      sheet.support[layer].clear();
-    }
+    sheet.layers.fill(no_weights());
   }
   p_odom_last_.reset();
   yaw_rad_ = 0.0;
@@ -97,22 +94,20 @@ void ScaleFilter::turn_back(double yaw_rad) {
   const int by = static_cast<int>(std::lround(yaw_rad * params_.headings / (2.0 * kPi)));
   for (std::size_t first = 0; first < sheets_.size(); first += static_cast<std::size_t>(turns())) {
     // All directions of one scale, round the circle.
-    std::vector<std::pair<std::vector<float>*, std::vector<std::uint32_t>*>> states;
+    std::vector<WeightLayer*> states;
     for (std::size_t layer = 0; layer < 4; ++layer) {
       for (std::size_t j = first; j < first + static_cast<std::size_t>(turns()); ++j) {
-        states.emplace_back(&sheets_[j].weight[layer], &sheets_[j].support[layer]);
+        states.push_back(&sheets_[j].layers[layer]);
       }
     }
-    std::vector<std::pair<std::vector<float>, std::vector<std::uint32_t>>> before;
-    for (const auto& [weight, support] : states) {
-      before.emplace_back(std::move(*weight), std::move(*support));
+    std::vector<WeightLayer> before;
+    for (WeightLayer* const weights : states) {
+      before.push_back(std::move(*weights));
     }
     const int count = params_.headings;
     for (int d = 0; d < count; ++d) {
-      auto& [weight, support] =
-          before[static_cast<std::size_t>(((d + by) % count + count) % count)];
-      *states[static_cast<std::size_t>(d)].first = std::move(weight);
-      *states[static_cast<std::size_t>(d)].second = std::move(support);
+      *states[static_cast<std::size_t>(d)] =
+          std::move(before[static_cast<std::size_t>(((d + by) % count + count) % count)]);
     }
   }
 }
@@ -164,10 +159,8 @@ Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
 void ScaleFilter::normalise(double total) {
   const auto factor = static_cast<float>(1.0 / total);
   for (Sheet& sheet : sheets_) {
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      for (const std::uint32_t i : sheet.support[layer]) {
-        sheet.weight[layer][i] *= factor;
-      }
+    for (WeightLayer& weights : sheet.layers) {
+      weights.for_each([&](std::uint32_t, float& weight) { weight *= factor; });
     }
   }
 }

@@ -4,19 +4,35 @@
 /// What a ScaleFilter says of its hypotheses.
 #include "coarse_map_nav/localization/scale_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace cmn {
+namespace {
+
+/// Cells of the belief within `radius` cells of one.
+std::vector<Cell> cells_near(const Belief& belief, Cell middle, double radius) {
+  std::vector<Cell> near;
+  const int reach = static_cast<int>(std::floor(radius));
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const Cell c = middle + Cell{x, y};
+      if (x * x + y * y <= radius * radius && belief.contains(c)) {
+        near.push_back(c);
+      }
+    }
+  }
+  return near;
+}
+
+}  // namespace
 
 std::vector<double> ScaleFilter::scale_marginal() const {
   std::vector<double> marginal(static_cast<std::size_t>(params_.scales), 0.0);
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      for (const std::uint32_t i : sheets_[s].support[layer]) {
-        marginal[s / static_cast<std::size_t>(turns())] +=
-            static_cast<double>(sheets_[s].weight[layer][i]);
-      }
+    for (const WeightLayer& weights : sheets_[s].layers) {
+      marginal[s / static_cast<std::size_t>(turns())] += weights.sum();
     }
   }
   return marginal;
@@ -25,21 +41,39 @@ std::vector<double> ScaleFilter::scale_marginal() const {
 std::vector<double> ScaleFilter::turn_marginal() const {
   std::vector<double> marginal(static_cast<std::size_t>(turns()), 0.0);
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      for (const std::uint32_t i : sheets_[s].support[layer]) {
-        marginal[s % static_cast<std::size_t>(turns())] +=
-            static_cast<double>(sheets_[s].weight[layer][i]);
-      }
+    for (const WeightLayer& weights : sheets_[s].layers) {
+      marginal[s % static_cast<std::size_t>(turns())] += weights.sum();
     }
   }
   return marginal;
 }
 
-void ScaleFilter::summarise() {
-  for (const auto& [heading, i] : shown_) {
-    belief_.layer(heading)[i] = 0.0;
+void ScaleFilter::forget_shown() {
+  if (is_shown_listed_) {
+    for (const auto& [heading, i] : shown_) {
+      belief_.layer(heading)[i] = 0.0;
+    }
+  } else {
+    for (const Heading heading : kHeadings) {
+      std::fill(belief_.layer(heading).begin(), belief_.layer(heading).end(), 0.0);
+    }
   }
   shown_.clear();
+  is_shown_listed_ = true;
+}
+
+void ScaleFilter::list_shown(Heading heading, std::uint32_t i) {
+  if (is_shown_listed_) {
+    shown_.emplace_back(heading, i);
+    if (shown_.size() > most_listed()) {
+      is_shown_listed_ = false;
+      decltype(shown_){}.swap(shown_);
+    }
+  }
+}
+
+void ScaleFilter::summarise() {
+  forget_shown();
   belief_.set_factor(1.0);
   double best = -1.0;
   Heading best_heading = Heading::kEast;
@@ -48,17 +82,17 @@ void ScaleFilter::summarise() {
     for (const Sheet& sheet : sheets_) {
       const Heading heading = heading_of(sheet, layer);
       std::vector<double>& shown = belief_.layer(heading);
-      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
+      sheet.layers[static_cast<std::size_t>(layer)].for_each([&](std::uint32_t i, float weight) {
         if (shown[i] == 0.0) {
-          shown_.emplace_back(heading, i);
+          list_shown(heading, i);
         }
-        shown[i] += static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
+        shown[i] += static_cast<double>(weight);
         if (shown[i] > best) {
           best = shown[i];
           best_heading = heading;
           best_cell = i;
         }
-      }
+      });
     }
   }
   estimate_ = {best_heading, cell_of(best_cell), best};
@@ -68,7 +102,7 @@ void ScaleFilter::summarise() {
   double facing_rad = 0.0;
   for (int layer = 0; layer < 4; ++layer) {
     for (const Sheet& sheet : sheets_) {
-      const float weight = sheet.weight[static_cast<std::size_t>(layer)][best_cell];
+      const float weight = sheet.layers[static_cast<std::size_t>(layer)][best_cell];
       if (weight > most && heading_of(sheet, layer) == best_heading) {
         most = weight;
         const double beyond_rad = yaw_rad_ + sheet.turn_rad;
@@ -80,7 +114,7 @@ void ScaleFilter::summarise() {
   // The mean of what lies within 1 m of the best cell and faces about the same way: finer than a
   // cell, and the scale there. By direction, not by heading: a robot that faces a diagonal is in
   // one place yet.
-  const double radius = 1.0 / map_.resolution();
+  const std::vector<Cell> near = cells_near(belief_, estimate_.cell, 1.0 / map_.resolution());
   constexpr double kSameWay_rad = kPi / 4.0 - 1e-6;
   Point2 sum;
   double mass = 0.0;
@@ -94,16 +128,13 @@ void ScaleFilter::summarise() {
         continue;
       }
       const Point2 offset = turned(sheet.offset, layer * kPi / 2.0);
-      for (const std::uint32_t i : sheet.support[static_cast<std::size_t>(layer)]) {
-        const Cell c = cell_of(i);
-        const Cell off = c - estimate_.cell;
-        if (off.x * off.x + off.y * off.y <= radius * radius) {
-          const auto w = static_cast<double>(sheet.weight[static_cast<std::size_t>(layer)][i]);
-          sum = sum + w * (middle_of(c) + offset);
-          log_scale += w * std::log(sheet.scale);
-          off_rad += w * aside_rad;
-          mass += w;
-        }
+      for (const Cell c : near) {
+        const auto w = static_cast<double>(
+            sheet.layers[static_cast<std::size_t>(layer)][belief_.padded_index(c)]);
+        sum = sum + w * (middle_of(c) + offset);
+        log_scale += w * std::log(sheet.scale);
+        off_rad += w * aside_rad;
+        mass += w;
       }
     }
   }
@@ -115,11 +146,15 @@ void ScaleFilter::summarise() {
 }
 
 Localization ScaleFilter::localization() const {
-  return {belief_,         estimate_,
-          position_cells_, grid_yaw_rad_,
-          confidence_,     confidence_ >= converged_confidence_,
-          scale_,          compass_.axes_yaw_rad(),
-          &shown_};
+  return {belief_,
+          estimate_,
+          position_cells_,
+          grid_yaw_rad_,
+          confidence_,
+          confidence_ >= converged_confidence_,
+          scale_,
+          compass_.axes_yaw_rad(),
+          is_shown_listed_ ? &shown_ : nullptr};
 }
 
 }  // namespace cmn

@@ -18,8 +18,6 @@ namespace {
 constexpr float kLeastShare = 1e-9F;
 /// Free rays are probed at these shares of their range.
 constexpr std::array<double, 3> kProbes{0.3, 0.6, 0.85};
-/// A layer that holds more than one in so many of the map's cells is weighed row by row.
-constexpr std::size_t kSparse = 8;
 
 /// Four neighbouring cells: the width of the vectors that every 64 bit processor has.
 using Four = float __attribute__((vector_size(16)));
@@ -118,9 +116,9 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
                   frees, map_.is_free(cell_of(cell)));
 }
 
-void ScaleFilter::measure_rows(const Evidence& evidence, int layer,
-                               const std::vector<float>& weight) {
-  logs_.resize(weight.size());
+template <class Tell>
+void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const WeightLayer& weights,
+                               Tell&& tell) const {
   const auto first = static_cast<std::size_t>(layer * kBearingsPerQuarter);
   for (int y = 0; y < map_.height(); ++y) {
     for (int x = 0; x < map_.width(); x += 4) {
@@ -130,7 +128,7 @@ void ScaleFilter::measure_rows(const Evidence& evidence, int layer,
       const std::uint8_t* any = nullptr;
       const auto here = static_cast<std::size_t>(std::min(4, map_.width() - x));
       for (std::size_t k = 0; k < here; ++k) {
-        expected[k] = weight[i + k] > 0.0F ? table_.row(i + k) : nullptr;
+        expected[k] = weights[i + k] != 0.0F ? table_.row(i + k) : nullptr;
         any = expected[k] != nullptr ? expected[k] : any;
       }
       if (any == nullptr) {
@@ -151,9 +149,10 @@ void ScaleFilter::measure_rows(const Evidence& evidence, int layer,
         }
       }
       for (std::size_t k = 0; k < here; ++k) {
-        if (weight[i + k] > 0.0F) {
-          logs_[i + k] = together(evidence, range[k], hits[k], frees[k],
-                                  map_.is_free({x + static_cast<int>(k), y}));
+        if (weights[i + k] != 0.0F) {
+          tell(static_cast<std::uint32_t>(i + k),
+               together(evidence, range[k], hits[k], frees[k],
+                        map_.is_free({x + static_cast<int>(k), y})));
         }
       }
     }
@@ -170,25 +169,30 @@ bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news)
   double fit = 0.0;
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     for (int layer = 0; layer < 4; ++layer) {
-      const auto& support = sheets_[s].support[static_cast<std::size_t>(layer)];
-      if (support.empty()) {
+      WeightLayer& weights = sheets_[s].layers[static_cast<std::size_t>(layer)];
+      weights.settle();
+      if (weights.is_listed() && weights.list().empty()) {
         continue;
       }
       const Evidence look =
           evidence(rays[s % static_cast<std::size_t>(turns())], sheets_[s], layer);
-      std::vector<float>& weight = sheets_[s].weight[static_cast<std::size_t>(layer)];
-      const bool is_dense = support.size() * kSparse > map_.occupied().size();
-      if (is_dense) {
-        measure_rows(look, layer, weight);
-      }
-      for (const std::uint32_t i : support) {
-        const double likelihood = is_dense ? logs_[i] : log_likelihood(look, layer, i);
-        const double value = news * likelihood + std::log(static_cast<double>(weight[i]));
-        weight[i] = static_cast<float>(value);
+      const auto log_weight = [&](std::uint32_t i, double likelihood, float weight) {
+        const double value = news * likelihood + std::log(static_cast<double>(weight));
         if (value > greatest) {
           greatest = value;
           fit = range_log_likelihood(look, layer, i) / std::max(1e-9, params_.range_weight);
         }
+        // 0 would be no weight.
+        return value == 0.0 ? -std::numeric_limits<float>::min() : static_cast<float>(value);
+      };
+      if (weights.is_listed()) {
+        weights.for_each([&](std::uint32_t i, float& weight) {
+          weight = log_weight(i, log_likelihood(look, layer, i), weight);
+        });
+      } else {
+        measure_rows(look, layer, weights, [&](std::uint32_t i, double likelihood) {
+          weights.set(i, log_weight(i, likelihood, weights[i]));
+        });
       }
     }
   }
@@ -197,19 +201,13 @@ bool ScaleFilter::weigh(const LocalOccupancy& seen, double yaw_rad, double news)
   }
   double total = 0.0;
   for (Sheet& sheet : sheets_) {
-    for (std::size_t layer = 0; layer < 4; ++layer) {
-      auto& support = sheet.support[layer];
-      auto& weight = sheet.weight[layer];
-      std::size_t kept = 0;
-      for (const std::uint32_t i : support) {
-        const float w = std::exp(weight[i] - static_cast<float>(greatest));
-        weight[i] = w > kLeastShare ? w : 0.0F;
-        if (w > kLeastShare) {
-          support[kept++] = i;
-          total += static_cast<double>(w);
-        }
-      }
-      support.resize(kept);
+    for (WeightLayer& weights : sheet.layers) {
+      weights.for_each([&](std::uint32_t, float& weight) {
+        const float w = std::exp(weight - static_cast<float>(greatest));
+        weight = w > kLeastShare ? w : 0.0F;
+        total += static_cast<double>(weight);
+      });
+      weights.settle();
     }
   }
   normalise(total);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace cmn {
 namespace {
@@ -17,63 +18,38 @@ Cell rounded(Point2 p) {
 
 }  // namespace
 
-void ScaleFilter::shift(Sheet& sheet, int layer, Cell by) {
-  std::vector<float>& weight = sheet.weight[static_cast<std::size_t>(layer)];
-  std::vector<std::uint32_t>& support = sheet.support[static_cast<std::size_t>(layer)];
-  scratch_support_.clear();
+void ScaleFilter::shift(WeightLayer& layer, Cell by) {
   const std::ptrdiff_t delta = static_cast<std::ptrdiff_t>(by.y) * stride_ + by.x;
   const auto blocked = static_cast<float>(params_.blocked_share);
-  for (const std::uint32_t i : support) {
+  scratch_.clear_like(layer);
+  layer.for_each([&](std::uint32_t i, float weight) {
     const Cell to = cell_of(i) + by;
     const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= map_.width() && to.y <= map_.height() &&
                         table_.may_stand(static_cast<std::size_t>(i + delta));
     // Mass that faces a wall stays (CMN eq. 1), but hardly: walls that are drawn mostly stand.
-    const auto target = static_cast<std::uint32_t>(may_go ? i + delta : i);
-    const float mass = (may_go ? 1.0F : blocked) * weight[i];
-    if (mass > 0.0F && scratch_[target] == 0.0F) {
-      scratch_support_.push_back(target);
-    }
-    scratch_[target] += mass;
-  }
-  for (const std::uint32_t i : support) {
-    weight[i] = 0.0F;
-  }
-  for (const std::uint32_t i : scratch_support_) {
-    weight[i] = scratch_[i];
-    scratch_[i] = 0.0F;
-  }
-  support.swap(scratch_support_);
+    scratch_.add(static_cast<std::uint32_t>(may_go ? i + delta : i),
+                 (may_go ? 1.0F : blocked) * weight);
+  });
+  std::swap(layer, scratch_);
 }
 
-void ScaleFilter::diffuse(Sheet& sheet, int layer, double share) {
-  std::vector<float>& weight = sheet.weight[static_cast<std::size_t>(layer)];
-  std::vector<std::uint32_t>& support = sheet.support[static_cast<std::size_t>(layer)];
-  scratch_support_.clear();
+void ScaleFilter::diffuse(WeightLayer& layer, double share) {
   const auto give = static_cast<float>(share);
-  for (const std::uint32_t i : support) {
-    float stays = weight[i];
-    const float part = give * weight[i];
+  scratch_.clear_like(layer);
+  layer.for_each([&](std::uint32_t i, float weight) {
+    float stays = weight;
+    const float part = give * weight;
     for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1},
                                       std::ptrdiff_t{stride_}, -std::ptrdiff_t{stride_}}) {
       const auto target = static_cast<std::uint32_t>(i + step);
       if (table_.may_stand(target)) {
-        if (scratch_[target] == 0.0F) {
-          scratch_support_.push_back(target);
-        }
-        scratch_[target] += part;
+        scratch_.add(target, part);
         stays -= part;
       }
     }
-    if (scratch_[i] == 0.0F) {
-      scratch_support_.push_back(i);
-    }
-    scratch_[i] += stays;
-  }
-  for (const std::uint32_t i : scratch_support_) {
-    weight[i] = scratch_[i];
-    scratch_[i] = 0.0F;
-  }
-  support.swap(scratch_support_);
+    scratch_.add(i, stays);
+  });
+  std::swap(layer, scratch_);
 }
 
 void ScaleFilter::move(Sheet& sheet, Point2 driven_m) {
@@ -83,10 +59,10 @@ void ScaleFilter::move(Sheet& sheet, Point2 driven_m) {
   const double share = std::min(0.2, params_.diffusion * norm(driven_m));
   for (int layer = 0; layer < 4; ++layer) {
     if (whole != Cell{0, 0}) {
-      shift(sheet, layer, turned(whole, layer));
+      shift(sheet.layers[static_cast<std::size_t>(layer)], turned(whole, layer));
     }
     if (share > 0.0) {
-      diffuse(sheet, layer, share);
+      diffuse(sheet.layers[static_cast<std::size_t>(layer)], share);
     }
   }
 }

@@ -100,7 +100,7 @@ class LocalizerNode {
       return;
     }
     observations_.received(msg->header.stamp);
-    if (!filter_) {
+    if (!filter_ || msg->partial != 0) {
       return;
     }
     if (gate_.time_jumped_back(seen->stamp_s)) {

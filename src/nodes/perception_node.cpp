@@ -3,26 +3,22 @@
 /// \file
 /// sensors -> local occupancy, and whether the way ahead is blocked.
 
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
-#include "coarse_map_nav/perception/range_projection.hpp"
-#include "coarse_map_nav/perception/rolling_map.hpp"
-#include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/motion/rest_detector.hpp"
+#include "coarse_map_nav/perception/perception.hpp"
+#include "coarse_map_nav/ros/depth_input.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/ros/panorama_strip.hpp"
+#include "coarse_map_nav/ros/percept_publisher.hpp"
+#include "coarse_map_nav/ros/scan_input.hpp"
 #include "coarse_map_nav/ros/tf_lookup.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
-#include <message_filters/subscriber.h>
-#include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
-#include <sensor_msgs/LaserScan.h>
-#include <std_msgs/Bool.h>
-#include <std_msgs/Empty.h>
-#include <std_msgs/Float32.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_listener.h>
 
 namespace {
@@ -32,144 +28,145 @@ class PerceptionNode {
   PerceptionNode()
       : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PerceptionNodeParams>>(
             ros::NodeHandle("~"))},
-        projector_{params_.navigator.perception.local_occupancy},
-        map_projector_{params_.navigator.perception.local_map},
-        rolling_{params_.navigator.perception.rolling},
-        rolling_map_{params_.navigator.perception.rolling},
-        scans_{"scan", params_.own.scan_timeout_s} {
-    local_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_occupancy", 1);
-    map_pub_ = nh_.advertise<coarse_map_nav::LocalOccupancy>("local_map", 1);
-    grid_pub_ = nh_.advertise<nav_msgs::OccupancyGrid>("local_occupancy/grid", 1);
-    blocked_pub_ = nh_.advertise<std_msgs::Bool>("obstacle_ahead", 1);
-    clear_pub_ = nh_.advertise<std_msgs::Float32>("clear_ahead", 1);
-    if (is_rolling_) {  // waits for the odometry of its time
-      scan_filter_.emplace(rolling_scan_sub_, tf_buffer_, params_.frames.odom, 5, nh_);
-      scan_filter_->registerCallback(
-          [this](const sensor_msgs::LaserScan::ConstPtr& scan) { on_scan(*scan); });
-      scan_filter_->registerFailureCallback([this](const sensor_msgs::LaserScan::ConstPtr&, auto) {
-        scans_.dropped("no transform to " + params_.frames.odom + " at its time");
-      });
-      rolling_scan_sub_.subscribe(nh_, "scan", 5);
-    } else {
-      scan_sub_ = nh_.subscribe("scan", 1, &PerceptionNode::on_scan, this);
-    }
-    observe_sub_ = nh_.subscribe("observe", 1, &PerceptionNode::on_observe, this);
+        perception_{perception_params()},
+        publisher_{nh_, params_.navigator.planning.step_m} {
     diagnostics_.setHardwareID("none");
-    diagnostics_.add("scan", &scans_, &cmn::InputMonitor::report);
+    if (perception_params().uses_scan()) {
+      scans_.emplace(nh_, tf_buffer_, params_.frames, params_.own.scan_timeout_s, needs_odometry_,
+                     [this](const auto& scan, const auto& header) { on_scan(scan, header); });
+      diagnostics_.add("scan", &scans_->monitor(), &cmn::InputMonitor::report);
+    }
+    if (perception_params().uses_depth()) {
+      depth_.emplace(nh_, tf_buffer_, params_.frames, params_.own.depth_timeout_s,
+                     [this](const auto& data, const auto& header) { on_depth(data, header); });
+      diagnostics_.add("depth", &depth_->monitor(), &cmn::InputMonitor::report);
+      diagnostics_.add("floor", this, &PerceptionNode::report_floor);
+    }
+    if (is_panorama_) {
+      strip_.emplace(nh_);
+    }
     timer_ = nh_.createTimer(ros::Duration(1.0),
                              [this](const ros::TimerEvent&) { diagnostics_.update(); });
   }
 
  private:
-  void on_scan(const sensor_msgs::LaserScan& scan) {
-    const std::string fault = cmn::fault_of(scan);
-    if (!fault.empty()) {
-      scans_.dropped(fault);
-      return;
-    }
-    std::string why;
-    const std::optional<cmn::Pose2> T_robot_sensor =
-        cmn::lookup(tf_buffer_, params_.frames.base, scan.header.frame_id, scan.header.stamp, why);
-    if (!T_robot_sensor) {
-      scans_.dropped(why);
-      return;
-    }
-    scans_.received(scan.header.stamp);
-    cmn::BeamCount beams;
-    const cmn::RangeScan ranges = cmn::scan_of(scan, *T_robot_sensor);
-    cmn::LocalOccupancy local = projector_.project(ranges, &beams);
-    if (beams.used == 0) {
-      scans_.dropped("no range of the scan is usable");
-      return;
-    }
-    std_msgs::Float32 clear;
-    clear.data =
-        static_cast<float>(cmn::clear_ahead_m(ranges, local, params_.navigator.perception.guard));
-    clear_pub_.publish(clear);
-    std_msgs::Bool blocked;
-    blocked.data = static_cast<std::uint8_t>(clear.data < params_.navigator.planning.step_m);
-    blocked_pub_.publish(blocked);
+  const cmn::PerceptionParams& perception_params() const { return params_.navigator.perception; }
 
-    std_msgs::Header header = scan.header;
-    header.frame_id = params_.frames.base;
-    if (is_rolling_ && !accumulate(ranges, local, header)) {
-      return;
-    }
-    last_ = cmn::message_of(local, header);
-    last_->clear_ahead = clear.data;
-    local_pub_.publish(*last_);
-    last_ranges_ = ranges;
-    publish_local_map();
-    if (grid_pub_.getNumSubscribers() > 0) {
-      grid_pub_.publish(cmn::grid_message(local, header));
+  void on_scan(const cmn::RangeScan& scan, const std_msgs::Header& header) {
+    cmn::SensorData data;
+    data.scan = &scan;
+    if (!depth_) {
+      look(data, header, scans_->monitor());
+    } else {  // it guards, and waits for the depth camera
+      publisher_.publish_guard(perception_.clear_ahead_m(data));
+      last_scan_ = scan;
     }
   }
 
-  /// Adds to a look what was seen before, and folds it in.
-  bool accumulate(const cmn::RangeScan& ranges, cmn::LocalOccupancy& local,
-                  const std_msgs::Header& header) {
-    std::string why;
-    const std::optional<cmn::Pose2> T_odom_robot =
-        cmn::lookup(tf_buffer_, params_.frames.odom, params_.frames.base, header.stamp, why);
-    if (!T_odom_robot) {
-      scans_.dropped(why);
-      return false;
-    }
-    if (last_ && header.stamp < last_->header.stamp) {  // of another odometry
-      rolling_.forget();
-      rolling_map_.forget();
-    }
-    local = rolling_.fuse(local, *T_odom_robot);
-    if (map_pub_.getNumSubscribers() > 0) {
-      last_map_ = rolling_map_.fuse(map_projector_.project(ranges), *T_odom_robot);
-    }
-    return true;
-  }
-
-  /// Somebody missed the last observation: once more.
-  void on_observe(const std_msgs::Empty& /*request*/) {
-    if (last_) {
-      local_pub_.publish(*last_);
-      publish_local_map();
-    }
-  }
-
-  /// Of the last scan.
-  void publish_local_map() {
-    if (map_pub_.getNumSubscribers() > 0) {
-      if (!is_rolling_) {
-        last_map_ = map_projector_.project(last_ranges_);
-      } else if (last_map_.stamp_s != last_ranges_.stamp_s) {
-        return;  // it was not yet listened to
+  void on_depth(const cmn::SensorData& depth, const std_msgs::Header& header) {
+    cmn::SensorData data = depth;
+    std::optional<cmn::RangeScan> scan;
+    if (scans_) {
+      if (!(scan = scan_at(header))) {
+        return;
       }
-      coarse_map_nav::LocalOccupancy map = cmn::message_of(last_map_, last_->header);
-      map.clear_ahead = last_->clear_ahead;
-      map_pub_.publish(map);
+      data.scan = &*scan;
+    }
+    look(data, header, depth_->monitor());
+  }
+
+  /// The last scan as seen from where the robot was at the header's time.
+  std::optional<cmn::RangeScan> scan_at(const std_msgs::Header& header) {
+    if (!last_scan_ || std::abs(last_scan_->stamp_s - header.stamp.toSec()) > kSameTime_s) {
+      depth_->monitor().dropped("no scan of about the same time");
+      return std::nullopt;
+    }
+    std::string why;
+    const auto& frames = params_.frames;
+    const auto then =
+        cmn::lookup(tf_buffer_, frames.odom, frames.base, ros::Time(last_scan_->stamp_s), why);
+    const auto now = cmn::lookup(tf_buffer_, frames.odom, frames.base, header.stamp, why);
+    if (!then || !now) {
+      depth_->monitor().dropped(why);
+      return std::nullopt;
+    }
+    cmn::RangeScan scan = *last_scan_;
+    scan.T_robot_sensor = cmn::inverse(*now) * *then * scan.T_robot_sensor;
+    return scan;
+  }
+
+  void look(const cmn::SensorData& data, std_msgs::Header header, cmn::InputMonitor& input) {
+    header.frame_id = params_.frames.base;
+    cmn::Pose2 T_odom_robot;
+    if (needs_odometry_) {
+      std::string why;
+      const auto pose =
+          cmn::lookup(tf_buffer_, params_.frames.odom, params_.frames.base, header.stamp, why);
+      if (!pose) {
+        input.dropped(why);
+        return;
+      }
+      T_odom_robot = *pose;
+    }
+    if (header.stamp < last_stamp_) {  // of another odometry
+      perception_.forget();
+      rest_.reset();
+    }
+    last_stamp_ = header.stamp;
+    rest_.update({header.stamp.toSec(), T_odom_robot});
+    if (is_panorama_ && !rest_.at_rest()) {
+      publisher_.publish_guard(perception_.clear_ahead_m(data));
+      return;
+    }
+    // Both views of a panorama are made of the same looks.
+    const cmn::Percept percept =
+        perception_.look(data, T_odom_robot, is_panorama_ || publisher_.has_map_listener());
+    if (percept.beams.used == 0 && !depth_) {
+      input.dropped("no range of the scan is usable");
+      return;
+    }
+    publisher_.publish_guard(percept.clear_ahead_m);
+    publisher_.publish(percept, header);
+    if (strip_) {
+      strip_->look(data.image != nullptr ? data.image->depth_m : cv::Mat{}, T_odom_robot.yaw,
+                   percept.is_complete, header);
     }
   }
+
+  void report_floor(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using Status = diagnostic_msgs::DiagnosticStatus;
+    const cmn::DepthReport& report = perception_.depth_report();
+    status.summary(Status::OK, report.floor == cmn::FloorSource::kSeen ? "seen"
+                               : report.floor == cmn::FloorSource::kLast
+                                   ? "not in view, as last seen"
+                                   : "as the mount says");
+    status.add("slope [deg]",
+               std::atan(static_cast<double>(report.plane.slope.norm())) * 180.0 / cmn::kPi);
+    status.add("offset [m]", report.plane.offset_m);
+    status.add("points", report.points);
+    status.add("without a reading", report.unusable);
+    status.add("flying", report.flying);
+    status.add("isolated", report.isolated);
+  }
+
+  /// A scan is joined to a look of the depth camera that is so little older or newer.
+  static constexpr double kSameTime_s = 0.5;
 
   ros::NodeHandle nh_;
   cmn::NodeParams<cmn::PerceptionNodeParams> params_;
-  cmn::RangeProjector projector_;
-  cmn::RangeProjector map_projector_;
-  const bool is_rolling_ = params_.navigator.perception.accumulate == "rolling";
-  cmn::RollingMap rolling_;
-  cmn::RollingMap rolling_map_;
-  cmn::InputMonitor scans_;
-  std::optional<coarse_map_nav::LocalOccupancy> last_;
-  cmn::RangeScan last_ranges_;  ///< of which it was made
-  cmn::LocalOccupancy last_map_;
+  const bool is_panorama_ = perception_params().accumulate == "panorama";
+  const bool needs_odometry_ =
+      perception_params().accumulate != "none" || perception_params().source == "fused";
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
-  ros::Publisher local_pub_;
-  ros::Publisher grid_pub_;
-  ros::Publisher map_pub_;
-  ros::Publisher blocked_pub_;
-  ros::Publisher clear_pub_;
-  ros::Subscriber scan_sub_;
-  message_filters::Subscriber<sensor_msgs::LaserScan> rolling_scan_sub_;
-  std::optional<tf2_ros::MessageFilter<sensor_msgs::LaserScan>> scan_filter_;
-  ros::Subscriber observe_sub_;
+  cmn::Perception perception_;
+  cmn::PerceptPublisher publisher_;
+  cmn::RestDetector rest_;
+  ros::Time last_stamp_;
+  std::optional<cmn::RangeScan> last_scan_;  ///< of a LiDAR beside a depth camera
+  std::optional<cmn::ScanInput> scans_;
+  std::optional<cmn::DepthInput> depth_;
+  std::optional<cmn::PanoramaStrip> strip_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer timer_;
 };

@@ -4,9 +4,8 @@
 /// belief and goal -> one action at a time.
 
 #include "coarse_map_nav/Belief.h"
-#include "coarse_map_nav/DiscreteAction.h"
-#include "coarse_map_nav/MotionResult.h"
 #include "coarse_map_nav/planning/planner.hpp"
+#include "coarse_map_nav/ros/action_orders.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/goal_server.hpp"
 #include "coarse_map_nav/ros/look_memory.hpp"
@@ -32,13 +31,16 @@ class PlannerNode {
             ros::NodeHandle("~"))},
         beliefs_{"belief", 0.0},
         plan_{nh_, params_.frames.map},
+        orders_{nh_,
+                [this](cmn::MotionOutcome outcome) {
+                  planner_ ? planner_->action_ended(outcome) : void();
+                }},
         looks_{nh_, params_.navigator.planning.needs_local_map(),
-               [this] { return missing_.empty() ? void() : decide(*belief_); }},
+               [this] { return missing_.empty() ? void() : decide(*belief_); },
+               [this](const std_msgs::Header& header) { on_partial_look(header); }},
         goals_{nh_, params_.frames.map, [this](cmn::Point2 goal) { return begin(goal); },
                [this] { cancel(); }} {
-    action_pub_ = nh_.advertise<coarse_map_nav::DiscreteAction>("action", 1);
     map_sub_ = nh_.subscribe("map", 1, &PlannerNode::on_map, this);
-    result_sub_ = nh_.subscribe("motion_result", 5, &PlannerNode::on_result, this);
     belief_sub_ = nh_.subscribe("belief", 1, &PlannerNode::on_belief, this);
     diagnostics_.setHardwareID("none");
     diagnostics_.add("belief", &beliefs_, &cmn::InputMonitor::report);
@@ -67,25 +69,30 @@ class PlannerNode {
     const std::optional<std::string> reason = planner_->set_goal(goal);
     if (!reason) {
       is_under_way_ = true;
-      if (belief_ && belief_->action_id >= action_.id) {
+      if (belief_ && belief_->action_id >= orders_.id()) {
         decide(*belief_);
       }
     }
     return reason;
   }
 
-  void on_result(const coarse_map_nav::MotionResult& result) {
-    if (planner_ && result.id == action_.id) {
-      planner_->action_ended(static_cast<cmn::MotionOutcome>(result.outcome));
-    }
-  }
-
   void on_belief(const coarse_map_nav::Belief::ConstPtr& msg) {
     beliefs_.received(msg->header.stamp);
     belief_ = msg;
-    if (is_under_way_ && msg->action_id >= action_.id) {
+    if (is_under_way_ && msg->action_id >= orders_.id()) {
       decide(*msg);
     }
+  }
+
+  /// Perception wants to see the rest of what can be seen from here.
+  void on_partial_look(const std_msgs::Header& header) {
+    if (!is_under_way_ || !orders_.has_ended_before(header.stamp)) {
+      return;
+    }
+    const cmn::Decision decision =
+        planner_->look_round(belief_ ? static_cast<double>(belief_->axes_yaw) : 0.0);
+    orders_.order(decision.action, belief_ ? belief_->action_id : 0, header);
+    publish_status(decision);
   }
 
   void decide(const coarse_map_nav::Belief& msg) {
@@ -110,8 +117,7 @@ class PlannerNode {
       goals_.finish(decision.state == State::kReached, decision.text);
       return;
     }
-    action_ = cmn::message_of(decision.action, msg.action_id + 1, msg.header);
-    send();
+    orders_.order(decision.action, msg.action_id, msg.header);
     publish_status(decision);
     goals_.publish_feedback(msg.header, msg.estimate);
   }
@@ -135,29 +141,23 @@ class PlannerNode {
     is_under_way_ = false;
     missing_.clear();
     planner_->cancel_goal();
-    action_ = coarse_map_nav::DiscreteAction{};  // STOP; no belief is awaited any more
-    action_pub_.publish(action_);
-  }
-
-  void send() {
-    action_pub_.publish(action_);
-    sent_ = ros::Time::now();
+    orders_.stop();
   }
 
   void on_timer(const ros::TimerEvent& /*event*/) {
     if (!missing_.empty()) {
       ask_for_local_map();
-    } else if (is_under_way_ && action_.id != 0 &&
-               std::abs((ros::Time::now() - sent_).toSec()) > params_.own.resend_after_s) {
-      ROS_WARN_STREAM("no belief after action " << action_.id << " yet: sending it again");
-      send();
+    } else if (is_under_way_ && orders_.id() != 0 &&
+               std::abs((ros::Time::now() - orders_.sent()).toSec()) > params_.own.resend_after_s) {
+      ROS_WARN_STREAM("no belief after action " << orders_.id() << " yet: sending it again");
+      orders_.repeat();
     }
     diagnostics_.update();
   }
 
   void publish_status(const cmn::Decision& decision) {
     const double confidence = belief_ ? static_cast<double>(belief_->confidence) : 0.0;
-    plan_.publish_status(decision, confidence, planner_ ? planner_->actions() : 0);
+    plan_.publish_status(decision, confidence, planner_ ? &*planner_ : nullptr);
   }
 
   ros::NodeHandle nh_;
@@ -167,15 +167,12 @@ class PlannerNode {
   std::optional<cmn::Planner> planner_;
   coarse_map_nav::Belief::ConstPtr belief_;
   std::string missing_;  ///< why belief_ cannot be decided on yet; else empty
-  coarse_map_nav::DiscreteAction action_;
   bool is_under_way_ = false;
-  ros::Time sent_;
-  ros::Publisher action_pub_;
   cmn::PlanPublisher plan_;
+  cmn::ActionOrders orders_;
   cmn::LookMemory looks_;
   cmn::GoalServer goals_;
   ros::Subscriber map_sub_;
-  ros::Subscriber result_sub_;
   ros::Subscriber belief_sub_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer timer_;

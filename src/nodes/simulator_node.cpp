@@ -1,13 +1,15 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world.
+/// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world. Where the LiDAR is
+/// says robot_description, from which robot_state_publisher has the transforms that do not change.
 
 #include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/places.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
+#include "coarse_map_nav/simulation/robot_description.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 
 #include <cmath>
@@ -26,7 +28,6 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Bool.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 namespace {
@@ -52,11 +53,25 @@ cmn::Pose2 start_of(const cmn::SimulatorNodeParams& own, const cmn::World& world
           std::isnan(own.start_yaw_deg) ? start->yaw : own.start_yaw_deg * cmn::kPi / 180.0};
 }
 
+/// From the parameter that robot_state_publisher reads too, sought as it does: in the namespace of
+/// the node, then further out.
+cmn::SensorMounts mounts_of(const Params& params) {
+  std::string key;
+  std::string xml;
+  if (!ros::param::search("robot_description", key) || !ros::param::get(key, xml)) {
+    throw std::runtime_error(
+        "robot_description: there is no such parameter; launch/include/robot.launch sets it");
+  }
+  return cmn::mounts_of(cmn::parse_robot_description(xml, key), params.frames.base,
+                        params.own.sensor_frames);
+}
+
 class SimulatorNode {
  public:
   SimulatorNode(const Params& params, cmn::World world, const cmn::Pose2& start)
       : params_{params},
-        simulator_{std::move(world), params.own.simulation, start, params.own.seed} {
+        simulator_{std::move(world), params.own.simulation, start, params.own.seed,
+                   cmn::seen_from_above(mounts_of(params).T_robot_lidar)} {
     clock_pub_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 1);
     odom_pub_ = nh_.advertise<nav_msgs::Odometry>("odom", 10);
     scan_pub_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 2);
@@ -64,11 +79,6 @@ class SimulatorNode {
     bumper_pub_ = nh_.advertise<std_msgs::Bool>("bumper", 1, true);
     cmd_sub_ = nh_.subscribe("cmd_vel", 1, &SimulatorNode::on_command, this,
                              ros::TransportHints().tcpNoDelay());
-    geometry_msgs::TransformStamped mount;
-    mount.header.frame_id = params_.frames.base;
-    mount.child_frame_id = params_.own.laser_frame;
-    mount.transform = cmn::transform_message(simulator_.scan().T_robot_sensor);
-    static_tf_.sendTransform(mount);
     diagnostics_.setHardwareID("simulator");
     diagnostics_.add("world", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       status.summary(diagnostic_msgs::DiagnosticStatus::OK, params_.own.world);
@@ -140,7 +150,7 @@ class SimulatorNode {
   void publish_scan() {
     std_msgs::Header header;
     header.stamp = stamp();
-    header.frame_id = params_.own.laser_frame;
+    header.frame_id = params_.own.sensor_frames.laser;
     scan_pub_.publish(cmn::message_of(simulator_.scan(), header, 1.0 / params_.own.scan_rate));
   }
 
@@ -154,7 +164,6 @@ class SimulatorNode {
   double command_s_ = -1e9;
   std::uint8_t was_bumped_ = 2;  // neither: the first state is always published
   tf2_ros::TransformBroadcaster tf_;
-  tf2_ros::StaticTransformBroadcaster static_tf_;
   ros::Publisher clock_pub_;
   ros::Publisher odom_pub_;
   ros::Publisher scan_pub_;

@@ -25,6 +25,18 @@ double occupied_share_ahead(const LocalOccupancy& seen, double side_m) {
   return cells == 0 ? 0.0 : static_cast<double>(occupied) / cells;
 }
 
+bool sees_ahead(const RangeScan& scan) {
+  constexpr double kAhead_rad = 15.0 * kPi / 180.0;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double bearing = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
+    if (std::abs(wrap_angle(bearing + scan.T_robot_sensor.yaw)) < kAhead_rad &&
+        !std::isnan(scan.ranges_m[i])) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double free_way_m(const RangeScan& scan, double radius_m) {
   double way_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -43,6 +55,9 @@ double free_way_m(const RangeScan& scan, double radius_m) {
 
 double clear_ahead_m(const RangeScan& scan, const LocalOccupancy& seen,
                      const ObstacleGuardParams& params) {
+  if (params.type != "none" && scan.source == ObservationSource::kDepth && !sees_ahead(scan)) {
+    return 0.0;
+  }
   if (params.type == "footprint") {
     return free_way_m(scan, params.radius_m);
   }

@@ -16,8 +16,6 @@ namespace cmn {
 namespace {
 
 constexpr std::size_t kMostHypotheses = 100;
-/// One state of the belief in so many possible is few.
-constexpr std::size_t kSparse = 8;
 constexpr double kLeastShare = 0.02;  ///< of the best hypothesis; less is left out
 /// The way there is dearer than the cost-to-go counts (turns, nearness): progress must still pay.
 constexpr double kGreed = 2.0;
@@ -100,8 +98,7 @@ std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& 
     }
   };
   // Few: only they are looked at, in the order of a pass over all.
-  if (situation.possible != nullptr &&
-      kSparse * situation.possible->size() < situation.map.occupied().size()) {
+  if (situation.possible != nullptr) {
     for (const auto& [h, i] : *situation.possible) {
       const auto stride = static_cast<std::uint32_t>(belief.stride());
       consider(h, {static_cast<int>(i % stride) - 1, static_cast<int>(i / stride) - 1},

@@ -44,8 +44,8 @@ double LocalLattice::step_cost_m(Cell from, Cell to) const {
 }
 
 void LocalLattice::look_at(const LocalOccupancy& local) {
-  // Farther than that, a distance is compared with nothing.
-  clearance_.measure(local);
+  // Farther than that, a clearance is compared with nothing.
+  clearance_.measure(local, std::max(params_.clearance_m, params_.comfort_m) + 2.0 * kGain_m);
   const double reach_m = std::min(params_.reach_m, 0.5 * local.side_m());
   reach_ = static_cast<int>(std::floor(reach_m / step_m_));
   column_of_half_step_.clear();

@@ -89,6 +89,7 @@ std::optional<std::string> Planner::set_goal(Point2 goal_map) {
   goal_cells_ = params_.policy == "belief" ? (1.0 / r) * p_grid : middle_of(cell);
   cost_to_go_ = CostToGo{map_, cell};
   actions_ = 0;
+  pivots_ = 0;
   is_stuck_ = false;
   end_.reset();
   policy_->reset();
@@ -142,11 +143,27 @@ Decision Planner::end(NavigationState state, double distance_m, std::string text
   return *end_;
 }
 
+Decision Planner::look_round(double axes_yaw_rad) {
+  if (!goal_) {
+    return resting(NavigationState::kStopped, "No goal is set.");
+  }
+  if (end_) {
+    return *end_;
+  }
+  ++pivots_;
+  is_pivoting_ = true;
+  return {NavigationState::kLocalizing,
+          {ActionType::kTurnLeft, 0.0, axes_yaw_rad},
+          std::numeric_limits<double>::quiet_NaN(),
+          "Looking round, turning left.",
+          true};
+}
+
 Decision Planner::decide(const Localization& localization, bool is_blocked_ahead,
                          const LocalOccupancy* local_map) {
+  is_pivoting_ = false;
   if (!goal_) {
-    return {NavigationState::kStopped, Action{}, std::numeric_limits<double>::quiet_NaN(),
-            "No goal is set."};
+    return resting(NavigationState::kStopped, "No goal is set.");
   }
   if (end_) {
     return *end_;

@@ -6,118 +6,115 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace cmn {
 namespace {
 
 /// Between neighbours without a wall between them the cost differs by no more, even on a diagonal.
 constexpr int kSlope = 2;
-constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::max();
+/// Of the border: nothing is ever cheaper.
+constexpr std::int32_t kBorder = -1;
 
 }  // namespace
 
 RepairedCostToGo::RepairedCostToGo(const RepairedMap& map, Cell goal)
     : goal_{goal}, width_{map.width()}, height_{map.height()} {
-  // Outside nothing is ever cheaper.
-  parts_.assign(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2),
-                Part{std::numeric_limits<std::int32_t>::min(), 0, Heading::kEast});
+  cost_.assign(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2),
+               kBorder);
+  price_.assign(cost_.size(), 0);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      parts_[index_of({x, y})] = {kUnknown, static_cast<std::uint16_t>(map.cost({x, y})),
-                                  Heading::kEast};
+      cost_[index_of({x, y})] = kUnknown;
+      price_[index_of({x, y})] = static_cast<std::uint16_t>(map.cost({x, y}));
     }
   }
-  buckets_.resize(static_cast<std::size_t>(map.dearest()) + 1);
-  go_back_to(0);
+  cost_[index_of(goal_)] = 0;
+  wait(static_cast<std::uint32_t>(index_of(goal_)));
 }
 
-void RepairedCostToGo::offer(std::uint32_t from, std::int32_t least) const {
-  // Towards the goal one enters `from`: the price is that of this part, from all its sides.
-  const std::int32_t cost = parts_[from].cost + parts_[from].price;
-  if (cost < least) {
-    return;
+void RepairedCostToGo::wait(std::uint32_t i) const {
+  const std::int32_t cost = cost_[i];
+  if (static_cast<std::size_t>(cost) >= waiting_.size()) {
+    waiting_.resize(static_cast<std::size_t>(cost) + 1);
   }
-  std::vector<std::uint32_t>& bucket = buckets_[static_cast<std::size_t>(cost) % buckets_.size()];
+  waiting_[static_cast<std::size_t>(cost)].push_back(i);
+  searched_ = std::min(searched_, cost);
+}
+
+std::int32_t RepairedCostToGo::cost_through_nearer(std::uint32_t i, std::int32_t cost) const {
+  std::int32_t least = kUnknown;
+  for (const Heading h : kHeadings) {
+    // Towards the goal one enters the neighbour: the price is that of it, from all its sides.
+    const std::uint32_t j = neighbour(i, h);
+    if (cost_[j] < cost && cost_[j] != kBorder) {
+      least = std::min(least, cost_[j] + price_[j]);
+    }
+  }
+  return least;
+}
+
+void RepairedCostToGo::offer(std::uint32_t from) const {
+  const std::int32_t cost = cost_[from] + price_[from];
   for (const Heading h : kHeadings) {
     const std::uint32_t i = neighbour(from, h);
-    Part& part = parts_[i];
-    if (cost < part.cost) {
-      part.cost = cost;
-      part.towards = turned(h, 2);
-      bucket.push_back(i);
-      ++waiting_;
+    if (cost < cost_[i]) {
+      cost_[i] = cost;
+      wait(i);
+    }
+  }
+}
+
+void RepairedCostToGo::lose_way(std::uint32_t i, std::int32_t instead) const {
+  const std::int32_t before = std::exchange(cost_[i], instead);
+  if (instead != kUnknown) {
+    wait(i);
+  }
+  for (const Heading h : kHeadings) {
+    const std::uint32_t j = neighbour(i, h);
+    // They may have come through here, or may now be the best way from here.
+    if (cost_[j] >= before && cost_[j] != kUnknown) {
+      wait(j);
     }
   }
 }
 
 void RepairedCostToGo::search_to(std::int32_t cost) const {
-  for (; searched_ <= cost && waiting_ > 0; ++searched_) {
-    std::vector<std::uint32_t>& bucket =
-        buckets_[static_cast<std::size_t>(searched_) % buckets_.size()];
-    for (const std::uint32_t i : bucket) {
-      if (parts_[i].cost == searched_) {
-        searched_parts_.push_back(i);
-        offer(i, searched_);
+  const auto goal = static_cast<std::uint32_t>(index_of(goal_));
+  for (; searched_ <= cost && static_cast<std::size_t>(searched_) < waiting_.size(); ++searched_) {
+    const auto here = static_cast<std::size_t>(searched_);
+    // Others may be found to cost as much meanwhile, and offers make the row of buckets grow.
+    for (std::size_t k = 0; k < waiting_[here].size(); ++k) {
+      const std::uint32_t i = waiting_[here][k];
+      if (cost_[i] != searched_) {
+        continue;
+      }
+      const std::int32_t least = i == goal ? 0 : cost_through_nearer(i, searched_);
+      if (least > searched_) {
+        lose_way(i, least);
+      } else {
+        offer(i);
       }
     }
-    waiting_ -= bucket.size();
-    bucket.clear();
+    std::vector<std::uint32_t>{}.swap(waiting_[here]);
   }
-}
-
-void RepairedCostToGo::go_back_to(std::int32_t cost) {
-  for (std::vector<std::uint32_t>& bucket : buckets_) {
-    for (const std::uint32_t i : bucket) {
-      const bool is_outdated = parts_[i].cost < searched_;  // a cheaper way was found since
-      parts_[i].cost = is_outdated ? parts_[i].cost : kUnknown;
-    }
-    bucket.clear();
-  }
-  waiting_ = 0;
-  while (!searched_parts_.empty() && parts_[searched_parts_.back()].cost >= cost) {
-    parts_[searched_parts_.back()].cost = kUnknown;
-    searched_parts_.pop_back();
-  }
-  searched_ = cost;
-  if (cost == 0) {
-    parts_[index_of(goal_)].cost = 0;
-    buckets_[0].push_back(static_cast<std::uint32_t>(index_of(goal_)));
-    waiting_ = 1;
-    return;
-  }
-  // What had been offered by those that remain, in the same order.
-  const std::int32_t farthest = cost - static_cast<std::int32_t>(buckets_.size());
-  const auto first =
-      std::lower_bound(searched_parts_.begin(), searched_parts_.end(), farthest,
-                       [&](std::uint32_t i, std::int32_t bound) { return parts_[i].cost < bound; });
-  for (auto i = first; i != searched_parts_.end(); ++i) {
-    offer(*i, cost);
-  }
-}
-
-bool RepairedCostToGo::matters(std::uint32_t changed, std::uint16_t price_before) const {
-  const Part& here = parts_[changed];
-  return std::any_of(kHeadings.begin(), kHeadings.end(), [&](Heading h) {
-    const Part& beside = parts_[neighbour(changed, h)];
-    const bool comes_through = beside.towards == turned(h, 2) && beside.cost > here.cost;
-    return here.price < price_before ? here.cost + here.price <= beside.cost
-                                     : here.price > price_before && comes_through;
-  });
 }
 
 void RepairedCostToGo::change(const RepairedMap& map, const std::vector<Cell>& parts) {
-  std::int32_t nearest = kUnknown;
   for (const Cell c : parts) {
     const auto i = static_cast<std::uint32_t>(index_of(c));
-    const auto before = parts_[i].price;
-    parts_[i].price = static_cast<std::uint16_t>(map.cost(c));
-    if (parts_[i].cost < searched_ && matters(i, before)) {
-      nearest = std::min(nearest, parts_[i].cost + std::min(before, parts_[i].price));
+    price_[i] = static_cast<std::uint16_t>(map.cost(c));
+    if (cost_[i] == kUnknown) {
+      continue;  // no way comes through here
     }
-  }
-  if (nearest != kUnknown) {
-    go_back_to(std::min(nearest, searched_));
+    // Cheaper: it has something to offer; dearer: who comes through here looks for a better way.
+    wait(i);
+    for (const Heading h : kHeadings) {
+      const std::uint32_t j = neighbour(i, h);
+      if (cost_[j] > cost_[i] && cost_[j] != kUnknown) {
+        wait(j);
+      }
+    }
   }
 }
 
@@ -126,10 +123,10 @@ double RepairedCostToGo::operator()(Cell part) const {
     return kOutside;
   }
   const std::size_t i = index_of(part);
-  while (parts_[i].cost > searched_) {
+  while (cost_[i] >= searched_) {
     search_to(searched_);
   }
-  return static_cast<double>(parts_[i].cost);
+  return static_cast<double>(cost_[i]);
 }
 
 double RepairedCostToGo::between(Point2 p_parts) const {
@@ -144,7 +141,7 @@ double RepairedCostToGo::between(Point2 p_parts) const {
   double weight = 0.0;
   for (const Cell step : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{1, 1}}) {
     const Cell part = low + step;
-    const auto there = static_cast<double>(parts_[index_of(part)].cost);
+    const auto there = static_cast<double>(cost_[index_of(part)]);
     if (std::abs(there - here) <= kSlope) {
       const double share =
           (1.0 - std::abs(p_parts.x - 0.5 - part.x)) * (1.0 - std::abs(p_parts.y - 0.5 - part.y));
@@ -160,7 +157,12 @@ std::optional<Cell> RepairedCostToGo::next(Cell part) const {
   if (part == goal_ || (*this)(part) == kOutside) {
     return std::nullopt;
   }
-  return part + unit_step(parts_[index_of(part)].towards);
+  const auto i = static_cast<std::uint32_t>(index_of(part));
+  const Heading* towards = std::find_if(kHeadings.begin(), kHeadings.end(), [&](Heading h) {
+    const std::uint32_t j = neighbour(i, h);
+    return cost_[j] != kBorder && cost_[j] < cost_[i] && cost_[j] + price_[j] == cost_[i];
+  });
+  return part + unit_step(*towards);
 }
 
 }  // namespace cmn

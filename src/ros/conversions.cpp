@@ -308,14 +308,18 @@ coarse_map_nav::MotionResult message_of(const MotionResult& result,
 }
 
 coarse_map_nav::NavigationStatus message_of(const Decision& decision, double confidence,
-                                            int actions, const std_msgs::Header& header) {
+                                            const Planner* planner,
+                                            const std_msgs::Header& header) {
   coarse_map_nav::NavigationStatus message;
   message.header = header;
   message.state = static_cast<std::uint8_t>(decision.state);
   message.text = decision.text;
   message.confidence = static_cast<float>(confidence);
   message.distance_to_go = static_cast<float>(decision.distance_to_go_m);
-  message.actions = static_cast<std::uint32_t>(actions);
+  if (planner != nullptr) {
+    message.actions = static_cast<std::uint32_t>(planner->actions());
+    message.pivots = static_cast<std::uint32_t>(planner->pivots());
+  }
   return message;
 }
 

@@ -11,17 +11,25 @@
 namespace cmn {
 
 LookMemory::LookMemory(ros::NodeHandle& nh, bool needs_local_map,
-                       std::function<void()> on_local_map)
-    : needs_local_map_{needs_local_map}, on_local_map_{std::move(on_local_map)} {
+                       std::function<void()> on_local_map,
+                       std::function<void(const std_msgs::Header&)> on_partial)
+    : needs_local_map_{needs_local_map},
+      on_local_map_{std::move(on_local_map)},
+      on_partial_{std::move(on_partial)} {
   using Message = coarse_map_nav::LocalOccupancy;
   observe_pub_ = nh.advertise<std_msgs::Empty>("observe", 1);
   occupancy_sub_ = nh.subscribe<Message>("local_occupancy", 5, [this](const auto& msg) {
     clear_ahead_m_.remember(msg->header.stamp.toSec(), static_cast<double>(msg->clear_ahead));
+    if (msg->partial != 0) {
+      on_partial_(msg->header);
+    }
   });
   if (needs_local_map) {
     local_map_sub_ = nh.subscribe<Message>("local_map", 5, [this](const auto& msg) {
-      local_maps_.remember(msg->header.stamp.toSec(), msg);
-      on_local_map_();
+      if (msg->partial == 0) {
+        local_maps_.remember(msg->header.stamp.toSec(), msg);
+        on_local_map_();
+      }
     });
   }
 }

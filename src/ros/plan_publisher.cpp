@@ -15,11 +15,12 @@ PlanPublisher::PlanPublisher(ros::NodeHandle& nh, std::string map_frame)
       path_pub_{nh.advertise<nav_msgs::Path>("path", 1, true)},
       repaired_pub_{nh.advertise<nav_msgs::OccupancyGrid>("repaired_map", 1, true)} {}
 
-void PlanPublisher::publish_status(const Decision& decision, double confidence, int actions) {
+void PlanPublisher::publish_status(const Decision& decision, double confidence,
+                                   const Planner* planner) {
   std_msgs::Header header;
   header.stamp = ros::Time::now();
   header.frame_id = map_frame_;
-  status_pub_.publish(message_of(decision, confidence, actions, header));
+  status_pub_.publish(message_of(decision, confidence, planner, header));
 }
 
 void PlanPublisher::publish_plan(const Planner& planner, Cell from, const CoarseMap& map,

@@ -8,7 +8,7 @@
 
 namespace cmn {
 
-RangeSensor::RangeSensor(const LidarParams& params, std::uint32_t seed)
+RangeSensor::RangeSensor(const LidarParams& params, std::uint32_t seed, const Pose2& T_robot_sensor)
     : params_{params}, rng_{seed} {
   const double view_rad = params.field_of_view_deg * kPi / 180.0;
   // All round, the last beam would fall on the first.
@@ -17,7 +17,7 @@ RangeSensor::RangeSensor(const LidarParams& params, std::uint32_t seed)
   layout_.angle_increment_rad = view_rad / gaps;
   layout_.range_min_m = params.range_min_m;
   layout_.range_max_m = params.range_max_m;
-  layout_.T_robot_sensor = {params.mount_x_m, params.mount_y_m, params.mount_yaw_deg * kPi / 180.0};
+  layout_.T_robot_sensor = T_robot_sensor;
   for (int i = 0; i < params.beams; ++i) {
     const double bearing_rad = layout_.angle_min_rad + i * layout_.angle_increment_rad;
     directions_.push_back({std::cos(bearing_rad), std::sin(bearing_rad)});

@@ -18,11 +18,11 @@ constexpr std::uint32_t kSensorSeed = 0x9e3779b9U;
 }  // namespace
 
 Simulator::Simulator(World world, const SimulationParams& params, const Pose2& T_world_start,
-                     std::uint32_t seed)
+                     std::uint32_t seed, const Pose2& T_robot_lidar)
     : world_{std::move(world)},
       params_{params},
       robot_{params.robot, T_world_start, seed},
-      sensor_{params.lidar, seed ^ kSensorSeed} {
+      sensor_{params.lidar, seed ^ kSensorSeed, T_robot_lidar} {
   require_free(T_world_start);
 }
 

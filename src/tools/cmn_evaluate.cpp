@@ -140,6 +140,19 @@ std::string changes_text(const cmn::ParamTree& changes) {
   return text.str();
 }
 
+/// Changes `judge` as a file says. Throws std::runtime_error naming every problem of it.
+cmn::ParamTree judge_changes(const std::string& file, cmn::JudgeParams& judge) {
+  const cmn::ParamTree tree = cmn::read_param_file(file);
+  std::string faults;
+  for (const std::string& problem : cmn::load_params(tree, judge)) {
+    faults += "\n  " + problem;
+  }
+  if (!faults.empty()) {
+    throw std::runtime_error(file + ":" + faults);
+  }
+  return tree;
+}
+
 /// Those to be explained. Throws std::runtime_error when one is no number of an action.
 std::vector<int> actions_of(const po::variables_map& given) {
   std::vector<int> actions;
@@ -181,6 +194,9 @@ int run(int argc, char** argv) {
   add_option("shard", po::value<std::string>()->default_value("0/1"), "i/n: every n-th episode");
   add_option("out", po::value<std::string>()->required(), "folder of episodes.csv and the report");
   add_option("config", po::value<std::string>(), "folder of the presets");
+  add_option("judge", po::value<std::string>(),
+             "yaml file of what is to differ of the judge and the simulated robot, as "
+             "{least_way_m: 1, simulation: {robot: {radius_m: 0.1}}}");
   add_option("resume", po::bool_switch(), "go on with what lies in --out");
   add_option("replay", po::value<std::vector<std::string>>()->multitoken()->composing(),
              "run only these episodes again, as CL-0.40-intel-17-ours, and draw them");
@@ -222,6 +238,10 @@ int run(int argc, char** argv) {
   plan.out = given["out"].as<std::string>();
   plan.config =
       given.count("config") != 0 ? fs::path{given["config"].as<std::string>()} : find_config();
+  cmn::ParamTree judge;
+  if (given.count("judge") != 0) {
+    judge = judge_changes(given["judge"].as<std::string>(), plan.judge);
+  }
   plan.resume = given["resume"].as<bool>();
   std::vector<std::string> replayed;
   if (given.count("replay") != 0) {
@@ -255,6 +275,7 @@ int run(int argc, char** argv) {
   cmn::EpisodeLog log{plan.out.string(), plan.resume};
   cmn::Evaluation evaluation{plan, log};
   context.horizon = evaluation.horizon();
+  context.settings.emplace_back("judge", judge.empty() ? "as shipped" : changes_text(judge));
   for (const cmn::Method& method : plan.methods) {
     if (!method.changes.empty()) {
       context.settings.emplace_back(method.name, changes_text(method.changes));

@@ -309,7 +309,7 @@ TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
         lookup(transforms_, "odom", observation->header.frame_id, observation->header.stamp, why);
     ASSERT_TRUE(T_odom_robot) << why;
     const Decision decision =
-        navigator.step(*seen, *local_map, static_cast<double>(observation->clear_ahead),
+        navigator.step(Percept{*seen, *local_map, static_cast<double>(observation->clear_ahead)},
                        *T_odom_robot, outcome_of(belief.action_id));
 
     const Localization at = navigator.localizer().localization();

@@ -48,22 +48,42 @@ std::string required_arguments(const std::string& text) {
   return arguments;
 }
 
+/// What `roslaunch ARGUMENTS` prints; it has to end well.
+std::string roslaunch(const std::string& arguments) {
+  const std::string command = "roslaunch " + arguments + " 2>&1";
+  SCOPED_TRACE(command);
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string output;
+  char line[512];
+  while (pipe != nullptr && std::fgets(line, sizeof line, pipe) != nullptr) {
+    output += line;
+  }
+  const int status = pipe != nullptr ? pclose(pipe) : -1;
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << output;
+  EXPECT_EQ(output.find("RLException"), std::string::npos) << output;
+  return output;
+}
+
 TEST(LaunchFiles, AllAreReadWithEveryFileThatTheyLoad) {
   ASSERT_GE(launch_files().size(), 3U);
   for (const fs::path& file : launch_files()) {
-    const std::string command =
-        "roslaunch --nodes '" + file.string() + "'" + required_arguments(text_of(file)) + " 2>&1";
-    SCOPED_TRACE(command);
-    FILE* pipe = popen(command.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    std::string output;
-    char line[512];
-    while (std::fgets(line, sizeof line, pipe) != nullptr) {
-      output += line;
-    }
-    const int status = pclose(pipe);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << output;
-    EXPECT_EQ(output.find("RLException"), std::string::npos) << output;
+    roslaunch("--nodes '" + file.string() + "'" + required_arguments(text_of(file)));
+  }
+}
+
+TEST(LaunchFiles, RobotsAreDescribedWhenAskedFor) {
+  const std::string file = CMN_SOURCE_DIR "/launch/navigate.launch map:=x robot:=";
+  for (const auto& entry : fs::directory_iterator(CMN_SOURCE_DIR "/urdf")) {
+    const std::string robot = entry.path().stem();
+    SCOPED_TRACE(robot);
+    const std::string publisher =
+        robot == "locobot" ? "/locobot/robot_state_publisher" : "/robot_state_publisher";
+    EXPECT_EQ(roslaunch("--nodes " + file + robot).find(publisher), std::string::npos);
+    const std::string asked = file + robot + " publish_robot:=true";
+    EXPECT_NE(roslaunch("--nodes " + asked).find(publisher), std::string::npos);
+    const std::string prefix = robot == "locobot" ? "locobot/" : "";
+    const std::string parameters = roslaunch("--dump-params " + asked);
+    EXPECT_NE(parameters.find(R"(\")" + prefix + R"(laser\")"), std::string::npos) << parameters;
   }
 }
 

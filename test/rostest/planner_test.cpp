@@ -167,6 +167,37 @@ TEST_F(PlannerTest, GoalsThatCannotBeAreRejectedWithAReason) {
   expect_order(1);
 }
 
+TEST_F(PlannerTest, TurnsRoundWhilePerceptionHasSeenOnlyAPartAndDoesNotCountThat) {
+  send_map();
+  client_.sendGoal(goal_at(kGoal));
+  const auto look = [this](bool is_partial) {
+    std_msgs::Header header;
+    header.stamp = ros::Time::now();
+    header.frame_id = "base_link";
+    coarse_map_nav::LocalOccupancy seen = message_of(LocalOccupancy{9, 0.2}, header);
+    seen.partial = static_cast<std::uint8_t>(is_partial);
+    occupancies_.publish(seen);
+  };
+  for (std::uint32_t id = 1; id <= 4; ++id) {
+    SCOPED_TRACE(id);
+    ASSERT_TRUE(wait_for([&] {
+      look(true);
+      return wait_for([&] { return !actions_.empty() && actions_.back().id == id; }, 0.1);
+    })) << planner_->output();
+    EXPECT_EQ(actions_.back().type, DiscreteAction::TURN_LEFT);
+    look(true);
+    EXPECT_FALSE(wait_for([&] { return actions_.back().id > id; }, 0.2)) << "it is still turning";
+    coarse_map_nav::MotionResult result;
+    result.id = id;
+    result.header.stamp = ros::Time::now();
+    results_.publish(result);
+  }
+  believe(kStart, 4);
+  expect_order(5);
+  ASSERT_TRUE(wait_for([this] { return statuses_.back().actions == 1; })) << planner_->output();
+  EXPECT_GE(statuses_.back().pivots, 4U);
+}
+
 TEST_F(PlannerTest, TheCycleOfActionsLeadsToTheGoalAndEndsThere) {
   set_out();
   believe({2, 1}, 1);

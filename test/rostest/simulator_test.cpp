@@ -19,6 +19,7 @@ namespace cmn {
 namespace {
 
 const std::string kWorld = std::string("_world:=") + CMN_SOURCE_DIR "/worlds/home.yaml";
+const std::string kBase = "_frames/base:=base_footprint";
 
 TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
   const std::string wall =
@@ -35,8 +36,13 @@ TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
       {{}, "world: name the file"},
       {{"_world:=/nowhere/world.yaml"}, "/nowhere/world.yaml"},
       {{"_world:=" + solid}, solid},
-      {{kWorld, "_start_x:=0.01", "_start_y:=0.01"}, "obstacle"},
-      {{kWorld, "_start_x:=-50.0", "_start_y:=2.0"}, "obstacle"},
+      {{kWorld, kBase, "_start_x:=0.01", "_start_y:=0.01"}, "obstacle"},
+      {{kWorld, kBase, "_start_x:=-50.0", "_start_y:=2.0"}, "obstacle"},
+      {{kWorld, "_laser_frame:=lidar", "_depth_frame:=eye"},
+       "/robot_description: its root is base_footprint, not the robot's frame base_link; has no "
+       "link "
+       "lidar; has no link eye"},
+      {{kWorld, kBase, "robot_description:=nowhere"}, "robot_description: there is no such"},
       {{kWorld, "_speed:=0.0", "_scan_rate:=0.0"}, "scan_rate: 0 is outside"},
   };
   for (const Case& c : cases) {
@@ -79,8 +85,8 @@ class RunningSimulator : public testing::Test {
   Inbox<nav_msgs::Odometry> truths_{"ground_truth"};
   Inbox<sensor_msgs::LaserScan> scans_{"scan"};
   NodeProcess node_{"simulator",
-                    {kWorld, "_speed:=" + std::to_string(kSpeed), "_seed:=3", "_start_x:=4.6",
-                     "_start_y:=5.55", "_start_yaw_deg:=0"}};
+                    {kWorld, kBase, "_speed:=" + std::to_string(kSpeed), "_seed:=3",
+                     "_start_x:=4.6", "_start_y:=5.55", "_start_yaw_deg:=0"}};
 };
 
 TEST_F(RunningSimulator, ClockIsMonotoneAndNeverFasterThanAsked) {
@@ -105,7 +111,7 @@ TEST_F(RunningSimulator, ScansAndOdometryAreWhatTheNodesTake) {
   for (const auto& odom : odoms_.all()) {
     ASSERT_TRUE(pose_of(odom->pose.pose));
     EXPECT_EQ(odom->header.frame_id, "odom");
-    EXPECT_EQ(odom->child_frame_id, "base_link");
+    EXPECT_EQ(odom->child_frame_id, "base_footprint");
   }
   EXPECT_NEAR(truths_.back().pose.pose.position.x, 4.6, 1e-6) << "it starts where it was told to";
   EXPECT_NEAR(odoms_.back().pose.pose.position.x, 0.0, 1e-6) << "the odometry starts at zero";

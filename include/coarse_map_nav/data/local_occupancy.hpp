@@ -15,6 +15,10 @@ namespace cmn {
 /// The sensor that an observation comes from; values as in msg/LocalOccupancy.
 enum class ObservationSource : std::uint8_t { kUnknown = 0, kLidar, kDepth, kRgb, kFused };
 
+/// The confidence of ground that nobody saw but that is taken to be free: too near to a camera to
+/// be in its view. It never outweighs what was seen.
+constexpr float kPresumed = 0.1F;
+
 /// A square grid of occupancy about the robot, axes as base_link: x forward, y left.
 ///
 /// Cell (ix, iy) covers x in [(ix - size/2) r, (ix + 1 - size/2) r) and y likewise: the robot

@@ -25,7 +25,7 @@ struct Localization {
   /// Yaw of the axes that the robot keeps to, in the frame of the odometry.
   double axes_yaw_rad = 0.0;
   /// All states of the belief that are not 0, in no order, each with its index in the padded layer;
-  /// null where the localizer does not keep them.
+  /// null where they are many or the localizer does not list them.
   const std::vector<std::pair<Heading, std::uint32_t>>* possible = nullptr;
 };
 

@@ -33,8 +33,28 @@ struct JudgeParams {
   double converged_confidence = 0.5;
   double least_way_m = 3.0;
   double most_way_m = 20.0;
+  bool papers_robot_slides = true;
+  bool counts_commanded_way = false;
+  bool forgets_at_goal = false;
   KidnapParams kidnap;
   SimulationParams simulation;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("success_radius_m", self.success_radius_m, Between{0.05, 10.0},
+          "[m] success: this near to the goal");
+    visit("least_way_m", self.least_way_m, Between{0.1, 1000.0}, "[m] from start to goal");
+    visit("most_way_m", self.most_way_m, Between{0.1, 1000.0}, "[m] from start to goal");
+    visit("papers_robot_slides", self.papers_robot_slides, Anything{},
+          "in the CMN paper's own setting (CG) the robot slides along walls, whatever "
+          "simulation/robot/sliding says");
+    visit("counts_commanded_way", self.counts_commanded_way, Anything{},
+          "the way driven is that of all forward actions, also of those that a wall ended, as in "
+          "CMN's released code");
+    visit("forgets_at_goal", self.forgets_at_goal, Anything{},
+          "who goes on at what it takes for the goal (cmn, mcse, rmn) starts over with its belief, "
+          "as in CMN's released code");
+    visit.group("simulation", self.simulation);
+  }
 };
 
 /// Where a kidnapped robot is put down: uniform over the places from where the way to the goal is
@@ -58,7 +78,7 @@ class Judge {
                bool is_stated);
   /// The robot says that it has arrived; the first word counts.
   void hear_reached(const StepDrive& robot);
-  void count_action() { ++row_.actions; }
+  void count_action(const Action& action);
 
   /// The robot is to be kidnapped before the next look; at any end that it declares before.
   bool is_time_to_kidnap(const StepDrive& robot) const;
@@ -73,10 +93,14 @@ class Judge {
 
  private:
   double off_goal_m(const StepDrive& robot) const;
+  double driven_m(const StepDrive& robot) const {
+    return params_.counts_commanded_way ? commanded_m_ : robot.driven_m();
+  }
 
   JudgeParams params_;
   bool kidnaps_;
   EpisodeRow row_;
+  double commanded_m_ = 0.0;
   int right_looks_ = 0;  ///< in a row, converged
   int right_since_ = 0;  ///< [actions] the first of them
 };

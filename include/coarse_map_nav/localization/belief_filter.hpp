@@ -12,7 +12,6 @@
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/measurement_model.hpp"
 #include "coarse_map_nav/localization/motion_model.hpp"
-#include "coarse_map_nav/localization/neighbourhood.hpp"
 #include "coarse_map_nav/localization/particle_params.hpp"
 #include "coarse_map_nav/localization/scale_filter.hpp"
 
@@ -108,18 +107,19 @@ class BeliefFilter : public Localizer {
   bool is_converged() const { return confidence_ >= params_.converged_confidence; }
 
  private:
-  /// A move by a share of a cell, in [0, 1], towards heading + quarter_turn.
-  struct Shift {
-    int quarter_turn;
-    double share;
-  };
   /// The greatest weight in each row of each layer: the best cells are found without another pass.
   using RowPeaks = std::array<std::vector<double>, 4>;
-  static std::vector<Shift> shifts(const std::vector<CellStep>& steps);
+  /// What a cell keeps of its own weight, and takes of the cell's behind it.
+  struct Shares {
+    double stay = 0.0;
+    double come = 0.0;
+  };
   /// Moves every layer and, where a likelihood is given, weighs it, then normalises. The layers
   /// have been rolled by `rolled` since the shift was measured. Returns the mean likelihood; where
   /// it does not exceed `least` the belief stays as it was.
   double apply(const Shift& shift, int rolled, const Likelihood* likelihood, double least);
+  /// One layer of it, into scratch_ and scratch_peaks_. Returns the sum of its weights.
+  double step_layer(Heading heading, Cell step);
   /// With any probability at all.
   HeadingSet possible_headings() const;
   void turn(int quarter_turns);
@@ -134,7 +134,7 @@ class BeliefFilter : public Localizer {
   LocalizationParams params_;
   std::unique_ptr<MotionModel> motion_;
   std::unique_ptr<MeasurementModel> measurement_;
-  NeighbourhoodKinds kinds_;
+  std::vector<Shares> shares_;  ///< by kind of cells
   std::mt19937_64 rng_;
   Belief belief_;
   RowPeaks peaks_;

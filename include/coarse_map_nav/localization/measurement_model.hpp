@@ -7,9 +7,9 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/localization/neighbourhood.hpp"
 
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,18 +42,13 @@ struct MeasurementModelParams {
 using HeadingSet = std::array<bool, 4>;
 constexpr HeadingSet kAllHeadings{true, true, true, true};
 
-/// P(seen | heading, cell) up to a factor, for all of them.
-///
-/// Per heading either one value for each of the 512 neighbourhoods (see neighbourhood.hpp), or one
-/// for each free cell in the layout of a Belief's layer.
-struct Likelihood {
-  bool is_by_neighbourhood = false;
-  std::array<std::vector<double>, 4> values;
-};
+/// P(seen | heading, cell) up to a factor: for each heading one value a kind of cells.
+using Likelihood = std::array<std::vector<double>, 4>;
 
 class MeasurementModel {
  public:
   virtual ~MeasurementModel() = default;
+  virtual const WindowKinds& kinds() const = 0;
   /// `residual_yaw_rad`: how far the robot is turned from the nearest odometry axis; the
   /// observation is turned back by it, so that headings are those of the axes.
   /// `weight` in [0, 1]: how much of this look is news; the likelihood is raised to it.
@@ -72,29 +67,23 @@ std::vector<double> reduce(const LocalOccupancy& seen, const MeasurementModelPar
 /// CMN eq. 2: L(k, c) = (1 - (1/n^2) sum |m_hat_k - m(c)|)^exponent, with m(c) the n x n window of
 /// the map about c and m_hat_k the observation turned by heading k. Cells outside are occupied.
 ///
-/// The sum over a row of the window depends on n bits of the map; tables of it, built anew for each
-/// observation by one addition an entry, cost one look-up a row and cell (two for n > 9, and so
-/// on). n = 3: a single table for all three rows, by neighbourhood.
+/// The sum over a piece of the window depends on nine bits of the map: a table of it, built anew
+/// for each observation by one addition an entry, costs one look-up a piece and kind of window.
 class OverlapModel : public MeasurementModel {
  public:
   OverlapModel(const CoarseMap& map, const MeasurementModelParams& params);
+  const WindowKinds& kinds() const override { return kinds_; }
   const Likelihood& measure(const LocalOccupancy& seen, double residual_yaw_rad, double weight,
                             const HeadingSet& headings) override;
 
  private:
-  void fill_by_neighbourhood(const std::vector<double>& window, Heading heading, double exponent);
-  void fill_by_cell(const std::vector<double>& window, Heading heading, double exponent);
+  void fill(const std::vector<double>& window, Heading heading, double exponent);
 
   MeasurementModelParams params_;
-  CoarseMap map_;
-  /// Bit i at (x, y): the map's cell (x - reach + i, y) is occupied; y from -reach on.
-  std::vector<std::uint32_t> row_codes_;
-  struct FreeCell {
-    std::uint32_t index;   ///< in the map
-    std::uint32_t padded;  ///< in a layer
-  };
-  std::vector<FreeCell> free_cells_;
+  WindowKinds kinds_;
   Likelihood likelihood_;
+  /// By piece: the share of each of its codes in the sum.
+  std::vector<std::array<double, kNeighbourhoods>> sums_;
 };
 
 std::unique_ptr<MeasurementModel> make_measurement_model(const MeasurementModelParams& params,

@@ -36,6 +36,14 @@ struct CellStep {
   double left = 0.0;     ///< in [-1, 1]
 };
 
+/// A move by a share of a cell, in [0, 1], towards the robot's heading + quarter_turn.
+struct Shift {
+  int quarter_turn;
+  double share;
+};
+/// Steps as moves along one axis each, without those that are no motion but the rounding of sines.
+std::vector<Shift> shifts(const std::vector<CellStep>& steps);
+
 /// Turns a displacement in metres into steps on the drawing. The belief is moved by each in turn.
 class MotionModel {
  public:

@@ -11,6 +11,7 @@
 #include "coarse_map_nav/localization/range_table.hpp"
 #include "coarse_map_nav/localization/scale_filter_params.hpp"
 #include "coarse_map_nav/localization/wall_compass.hpp"
+#include "coarse_map_nav/localization/weight_layer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -66,8 +67,7 @@ class ScaleFilter : public Localizer {
                             ///< whole quarters
     Point2 offset;  ///< of every hypothesis from the middle of its cell, in the walls' axes turned
                     ///< back by turn_rad [cells]
-    std::array<std::vector<float>, 4> weight;           ///< by how the drawing lies; padded
-    std::array<std::vector<std::uint32_t>, 4> support;  ///< cells of weight > 0
+    std::array<WeightLayer, 4> layers;  ///< by how the drawing lies; padded
   };
   /// What a look says about the cells of one sheet and layer.
   struct Evidence {
@@ -76,14 +76,16 @@ class ScaleFilter : public Localizer {
     std::vector<std::ptrdiff_t> hits;  ///< offsets in the field
     std::vector<std::ptrdiff_t> frees;
   };
+  /// More states than one in so many of the map's cells are many: they are not listed.
+  std::size_t most_listed() const { return map_.occupied().size() / 8; }
   int turns() const { return params_.headings / 4; }
   /// The heading on the drawing that is nearest to the robot's by the hypotheses of a layer.
   Heading heading_of(const Sheet& sheet, int layer) const {
     return turned(static_cast<Heading>(layer), nearest_quarter(yaw_rad_ + sheet.turn_rad));
   }
   void move(Sheet& sheet, Point2 driven_m);
-  void shift(Sheet& sheet, int layer, Cell by);
-  void diffuse(Sheet& sheet, int layer, double share);
+  void shift(WeightLayer& layer, Cell by);
+  void diffuse(WeightLayer& layer, double share);
   /// Weighs all cells; false when nothing is left. `yaw_rad`: of the robot, in the walls' axes.
   bool weigh(const LocalOccupancy& seen, double yaw_rad, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
@@ -91,11 +93,16 @@ class ScaleFilter : public Localizer {
   double together(const Evidence& evidence, float range, float hits, float frees,
                   bool is_free) const;
   double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
-  /// The same for all cells that hold a weight, into logs_.
-  void measure_rows(const Evidence& evidence, int layer, const std::vector<float>& weight);
+  /// The same for all cells that hold a weight: tell(cell, log likelihood), which may change it.
+  template <class Tell>
+  void measure_rows(const Evidence& evidence, int layer, const WeightLayer& weights,
+                    Tell&& tell) const;
   double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
   void normalise(double total);
+  void forget_shown();
+  void list_shown(Heading heading, std::uint32_t i);
   void summarise();
+  WeightLayer no_weights() const;
   /// Of a state: its layer's heading, the turn beyond it, its cell.
   using Weights = std::function<double(Heading, double turn_rad, Cell)>;
   /// Layers are taken to be headings until the first look tells how the odometry lies.
@@ -123,13 +130,12 @@ class ScaleFilter : public Localizer {
   std::vector<float> log_of_free_;
   double log_of_rim_ = 0.0;
   std::vector<Sheet> sheets_;  ///< all turns of the first scale, of the second, ...
-  std::vector<float> scratch_;
-  std::vector<double> logs_;
-  std::vector<std::uint32_t> scratch_support_;
+  WeightLayer scratch_;
   WallCompass compass_;
   std::optional<Point2> p_odom_last_;
   Belief belief_;  ///< scales and turns summed out, layers by the robot's heading
-  std::vector<std::pair<Heading, std::uint32_t>> shown_;  ///< cells of belief_ that are not 0
+  std::vector<std::pair<Heading, std::uint32_t>> shown_;  ///< cells of belief_ that are not 0,
+  bool is_shown_listed_ = true;                           ///< while they are few
   Estimate estimate_;
   Point2 position_cells_;
   double yaw_rad_ = 0.0;       ///< of the robot in the walls' axes

@@ -44,8 +44,12 @@ double occupied_share_ahead(const LocalOccupancy& seen, double side_m);
 /// lies behind the middle, and what it passes at `radius_m` or more, is not in its way.
 double free_way_m(const RangeScan& scan, double radius_m);
 
+/// True when any beam towards the way ahead is a measurement, be it of nothing.
+bool sees_ahead(const RangeScan& scan);
+
 /// What the guard allows: no step forward that is longer [m]. 0 or infinite by type "block" (Robb)
-/// and infinite by "none". `seen` was made from `scan`.
+/// and infinite by "none". Otherwise 0 for a depth camera that sees nothing ahead: in the dark, and
+/// before a wall too near to measure, it has no readings. `seen` was made from `scan`.
 double clear_ahead_m(const RangeScan& scan, const LocalOccupancy& seen,
                      const ObstacleGuardParams& params);
 

@@ -26,6 +26,15 @@ struct RangeScan {
   double range_max_m = 0.0;
   std::vector<float> ranges_m;
   Pose2 T_robot_sensor;
+
+  /// How far a beam saw whatever stands in its way.
+  struct Sight {
+    float from_m = 0.0F;  ///< nearer the ground is taken to be free, though nobody saw it
+    float to_m = 0.0F;    ///< so far it is free if the beam met nothing
+  };
+  /// Of each beam of a sensor that looks down at the floor. Empty: from 0 to range_max_m.
+  std::vector<Sight> sights;
+  ObservationSource source = ObservationSource::kLidar;
 };
 
 struct ProjectionParams {
@@ -53,6 +62,8 @@ struct BeamCount {
 /// for one cell's diagonal, both with confidence 1. What lies beyond is unseen: confidence 0 and
 /// occupancy 1, Robb's "everything beyond is occupied"; who trusts only what was seen looks at the
 /// confidence. Bearings outside the field of view and unusable beams leave 0.5 with confidence 0.
+/// Nearer than the sight of a beam begins, free cells have the confidence kPresumed, and so has the
+/// ground between the robot's middle and a camera before it, which no beam crosses.
 /// In a dense scan, a lone beam that met nothing between two that hit is taken to be free only as
 /// far as they were: most lidars report a lost echo so.
 /// Each cell's bearing and distance are tabulated for the sensor at hand, so that a scan costs one
@@ -66,7 +77,7 @@ class RangeProjector {
  private:
   /// A cell as the sensor sees it.
   struct Bearing {
-    std::uint32_t beam;  ///< the nearest beam; as many as there are, outside the field of view
+    std::uint32_t beam;  ///< the nearest; outside the field of view one of the two after the last
     float range_m;       ///< distance of the cell's middle from the sensor
   };
   void tabulate(const RangeScan& scan);

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/grid.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/perception/accumulator.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -34,33 +35,36 @@ struct RollingMapParams {
 /// f and confidence c are carried along by egomotion, and a look (f', c') is folded in by f <- (f c
 /// + f' c') / (c + c'), c <- c + c'.
 ///
-/// Three differences (ours): the grid keeps its place in a frame of its own and scrolls with the
-/// robot, since warping it anew at each step blurs walls away; confidence is limited and fades with
-/// the way driven, since people move; and each look is aligned with what was seen before
-/// (correlative scan matching, Olson 2009, over a few degrees and cells), since odometry drifts: of
-/// a robot that turns often, it would draw arcs for walls.
-class RollingMap {
+/// What is only presumed (kPresumed) changes nothing that is known. Three differences (ours): the
+/// grid keeps its place in a frame of its own and scrolls with the robot, since warping it anew at
+/// each step blurs walls away; confidence is limited and fades with the way driven, since people
+/// move; and each look is aligned with what was seen before (correlative scan matching, Olson 2009,
+/// over a few degrees and cells), since odometry drifts: of a robot that turns often, it would draw
+/// arcs for walls.
+class RollingMap : public Accumulator {
  public:
   explicit RollingMap(const RollingMapParams& params) : params_{params} {}
 
-  /// Folds in a look and returns all that is known, in the frame and on the cells of the look.
-  LocalOccupancy fuse(const LocalOccupancy& look, const Pose2& T_odom_robot);
-  /// The odometry jumped: what was seen lies nobody knows where.
-  void forget();
+  LocalOccupancy fuse(LocalOccupancy look, const Pose2& T_odom_robot) override;
+  void forget() override;
 
  private:
-  struct Known {
-    float occupancy = 0.5F;
-    float confidence = 0.0F;
-  };
+  /// Where a cell of the map's frame is kept: the window is wrapped round.
+  Cell place_of(Cell c) const;
   /// Of the window: above 0 where something stands, below where it is free, 0 where unknown.
   cv::Mat surfaces() const;
   /// The pose near `T_map_robot` at which the look fits best.
   Pose2 aligned(const LocalOccupancy& look, const Pose2& T_map_robot) const;
   void scroll_to(Cell middle);
+  /// What was seen counts less from now on.
+  void age(double driven_m);
+  void fold_in(const LocalOccupancy& look, const Pose2& T_map_robot);
+  /// `look`, and what else is known where it lies.
+  LocalOccupancy all_known(LocalOccupancy look, const Pose2& T_map_robot) const;
 
   RollingMapParams params_;
-  Grid<Known> known_;
+  Grid<float> occupancy_;
+  Grid<float> confidence_;  ///< 0: unknown
   double resolution_ = 0.0;
   Pose2 T_map_odom_;  ///< what odometry has drifted since the beginning
   Cell middle_;       ///< cell of the map's frame that the window is about

@@ -16,9 +16,13 @@ namespace cmn {
 
 /// How far each cell of a local occupancy grid is from what is seen to be occupied: from its middle
 /// to the border of the nearest occupied cell.
+///
+/// Distances are those of a 5 x 5 chamfer mask (Borgefors 1986), to the bit those of OpenCV's
+/// distance transform, which does not work on several cells at a time.
 class ClearanceMap {
  public:
-  void measure(const LocalOccupancy& local);
+  /// Beyond `farthest_m` a clearance may come out too large. Cost: O(cells log(farthest)).
+  void measure(const LocalOccupancy& local, double farthest_m);
   /// [m], from the robot's frame; kUnseen where nothing was seen.
   double at(Point2 p_robot) const {
     const int ix = column_of(p_robot.x);
@@ -42,10 +46,23 @@ class ClearanceMap {
   static constexpr double kUnseen = -1.0;
 
  private:
+  /// Half of the transform: passes on what the rows before, and the cells before in a row, know.
+  /// `sense` 1: from the lowest row up; -1: from the highest down.
+  /// Along a row in runs of up to 2^runs - 1 cells.
+  void sweep(int sense, int runs);
+  float* row_of(int y) {
+    return cells_.data() + static_cast<std::ptrdiff_t>(y + 2) * (size_ + 2 * border_) + border_;
+  }
+
   int size_ = 0;
   double resolution_ = 1.0;
   std::vector<float> clearance_m_;
   std::vector<std::uint8_t> is_seen_;
+  // Distances to the middle of an occupied cell [cells], between borders of far ones.
+  int border_ = 0;
+  std::vector<float> cells_;
+  std::vector<float> row_;  ///< in the making
+  std::vector<float> other_row_;
 };
 
 }  // namespace cmn

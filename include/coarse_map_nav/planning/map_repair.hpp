@@ -79,13 +79,14 @@ class RepairedMap {
 
  private:
   /// Looks for (> 0) and against (< 0) a part's being open, at most kMostLooks either way. What is
-  /// drawn counts as one look.
+  /// drawn counts as one look. One byte: there may be millions.
   struct Part {
-    std::int8_t looks = 0;
-    bool is_open = false;
-    bool was_seen = false;
-    bool has_failed = false;
+    std::int8_t looks : 4;
+    bool is_open : 1;
+    bool was_seen : 1;
+    bool has_failed : 1;
   };
+  static_assert(sizeof(Part) == 1);
   static constexpr int kMostLooks = 4;
 
   CoarseMap drawing_;

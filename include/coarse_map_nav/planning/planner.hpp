@@ -75,7 +75,8 @@ struct Decision {
   NavigationState state = NavigationState::kStopped;
   Action action;  ///< kStop when the state is an end
   double distance_to_go_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN without a path
-  std::string text;  ///< one sentence for a person
+  std::string text;       ///< one sentence for a person
+  bool is_pivot = false;  ///< the action completes a look and is not counted
 };
 
 /// To stand still, and why.
@@ -110,15 +111,23 @@ class Planner {
   /// way ahead blocked until the robot has turned, whatever the guard sees: a thin leg or the edge
   /// of a door fills too little of the front block.
   void action_ended(MotionOutcome outcome) {
+    if (is_pivoting_) {
+      return;  // nothing was learned about the way ahead
+    }
     is_stuck_ = last_action_ == ActionType::kMoveForward && outcome == MotionOutcome::kBlocked;
   }
   /// One decision; counts the actions since the goal was set. `is_blocked_ahead` is the obstacle
   /// guard's word; `local_map` is what the robot sees farther around, where the policy asks for it.
   Decision decide(const Localization& localization, bool is_blocked_ahead,
                   const LocalOccupancy* local_map = nullptr);
+  /// In place of a decision while perception has seen only part of what it could from here: a turn
+  /// to the left, so that it may look there. Not one of max_actions.
+  Decision look_round(double axes_yaw_rad);
   /// The cells from `from` to the goal along the least cost; empty when there is no way or no goal.
   std::vector<Cell> path_from(Cell from) const;
   int actions() const { return actions_; }
+  /// Turns for the sake of a look since the goal was set.
+  int pivots() const { return pivots_; }
   /// What the policy has learned about the drawing; null: nothing.
   const RepairedMap* repaired_map() const { return policy_->repaired_map(); }
 
@@ -139,6 +148,8 @@ class Planner {
   Point2 goal_cells_;  ///< finer than its cell
   CostToGo cost_to_go_;
   int actions_ = 0;
+  int pivots_ = 0;
+  bool is_pivoting_ = false;
   ActionType last_action_ = ActionType::kStop;
   bool is_stuck_ = false;
   std::optional<Decision> end_;

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,10 +19,10 @@ namespace cmn {
 /// Dijkstra from the goal over the parts of a repaired map, four neighbours each; walls can be
 /// crossed at their price, so there is a way from everywhere.
 ///
-/// The search goes only as far from the goal as it is asked about. Where the map changes so that
-/// cheapest ways do, it goes back to the nearest change and on from there: with the goal ahead and
-/// changes around the robot, only what lies about as far from the goal as they do is searched
-/// again. By Dial's queue; all results are those of a search of the whole map from the beginning.
+/// The search goes only as far from the goal as it is asked about, and where the map changes only
+/// what follows from the changes is searched again, and that too only as far as it is asked about
+/// (after LPA*, Koenig and Likhachev 2004, without a heuristic). So a robot far from the goal pays
+/// for what lies around it. All results are those of a search of the whole map from the beginning.
 class RepairedCostToGo {
  public:
   RepairedCostToGo() = default;
@@ -36,16 +37,13 @@ class RepairedCostToGo {
   /// The same between the middles of parts, bilinear among those with no wall in between;
   /// `p_parts`: part (0, 0) from 0 to 1.
   double between(Point2 p_parts) const;
-  /// The next part on a cheapest way to the goal; none at the goal and outside.
+  /// The next part on a cheapest way to the goal, of equals the first in the order of kHeadings;
+  /// none at the goal and outside.
   std::optional<Cell> next(Cell part) const;
 
  private:
   static constexpr double kOutside = 1e9;
-  struct Part {
-    std::int32_t cost;    ///< final when it is no more than searched_
-    std::uint16_t price;  ///< of a step into it; 0: outside
-    Heading towards;      ///< to the next part
-  };
+  static constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::max();
   bool contains(Cell c) const { return c.x >= 0 && c.y >= 0 && c.x < width_ && c.y < height_; }
   /// With a border of one part, all around, that is outside.
   std::size_t index_of(Cell c) const {
@@ -57,22 +55,26 @@ class RepairedCostToGo {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(i) + step.y * (width_ + 2) +
                                       step.x);
   }
-  void offer(std::uint32_t from, std::int32_t least) const;
+  /// It is looked at when the search comes to its cost.
+  void wait(std::uint32_t i) const;
+  /// What it costs by way of the neighbours that are nearer to the goal than `cost`.
+  std::int32_t cost_through_nearer(std::uint32_t i, std::int32_t cost) const;
+  void offer(std::uint32_t from) const;
+  /// The way that it had is no more: takes the best that is known, and lets its neighbours, farther
+  /// than that way was, look to theirs.
+  void lose_way(std::uint32_t i, std::int32_t instead) const;
   /// Until all that costs no more is known.
   void search_to(std::int32_t cost) const;
-  void go_back_to(std::int32_t cost);
-  /// A part that was searched has another price: does anything follow?
-  bool matters(std::uint32_t changed, std::uint16_t price_before) const;
 
   Cell goal_;
   int width_ = 0;
   int height_ = 0;
+  std::vector<std::uint16_t> price_;  ///< of a step into each part
   // The search, which goes on when it is asked for more.
-  mutable std::vector<Part> parts_;
-  mutable std::vector<std::uint32_t> searched_parts_;  ///< in order
-  mutable std::int32_t searched_ = 0;                  ///< all that cost less
-  mutable std::vector<std::vector<std::uint32_t>> buckets_;
-  mutable std::size_t waiting_ = 0;
+  mutable std::vector<std::int32_t> cost_;  ///< final where it is less than searched_
+  mutable std::int32_t searched_ = 0;
+  /// By their cost; of a part whose cost is another by now, nothing follows.
+  mutable std::vector<std::vector<std::uint32_t>> waiting_;
 };
 
 }  // namespace cmn

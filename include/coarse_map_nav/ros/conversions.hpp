@@ -84,8 +84,9 @@ std::optional<ReceivedBelief> belief_of(const coarse_map_nav::Belief& msg, const
 coarse_map_nav::DiscreteAction message_of(const Action& action, std::uint32_t id,
                                           const std_msgs::Header& header);
 coarse_map_nav::MotionResult message_of(const MotionResult& result, const std_msgs::Header& header);
+/// `planner`: whose actions and pivots it counts; null before there is one.
 coarse_map_nav::NavigationStatus message_of(const Decision& decision, double confidence,
-                                            int actions, const std_msgs::Header& header);
+                                            const Planner* planner, const std_msgs::Header& header);
 /// The middles of cells.
 nav_msgs::Path message_of(const std::vector<Cell>& path, const CoarseMap& map,
                           const std_msgs::Header& header);

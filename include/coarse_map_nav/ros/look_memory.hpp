@@ -13,6 +13,7 @@
 #include <string>
 
 #include <ros/ros.h>
+#include <std_msgs/Header.h>
 
 namespace cmn {
 
@@ -20,8 +21,10 @@ namespace cmn {
 /// is missing by `observe`.
 class LookMemory {
  public:
-  /// `on_local_map` is called when one has come.
-  LookMemory(ros::NodeHandle& nh, bool needs_local_map, std::function<void()> on_local_map);
+  /// `on_local_map` is called when one has come, `on_partial` when a look has that was only a part
+  /// of what can be seen from where the robot stands.
+  LookMemory(ros::NodeHandle& nh, bool needs_local_map, std::function<void()> on_local_map,
+             std::function<void(const std_msgs::Header&)> on_partial);
 
   bool needs_local_map() const { return needs_local_map_; }
   /// True unless the look of exactly this time allowed a step of this length.
@@ -35,6 +38,7 @@ class LookMemory {
  private:
   bool needs_local_map_;
   std::function<void()> on_local_map_;
+  std::function<void(const std_msgs::Header&)> on_partial_;
   StampedMemory<double> clear_ahead_m_;
   StampedMemory<coarse_map_nav::LocalOccupancy::ConstPtr> local_maps_;
   ros::Publisher observe_pub_;

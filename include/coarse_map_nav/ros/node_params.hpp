@@ -7,6 +7,7 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/localization/update_gate.hpp"
 #include "coarse_map_nav/params.hpp"
+#include "coarse_map_nav/simulation/robot_description.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct SimulatorNodeParams {
   double odometry_rate = 50.0;
   double scan_rate = 10.0;
   double command_timeout_s = 0.6;
-  std::string laser_frame = "laser";
+  SensorFrameParams sensor_frames;
   SimulationParams simulation;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
@@ -52,7 +53,7 @@ struct SimulatorNodeParams {
     visit("scan_rate", self.scan_rate, Between{0.5, 100.0}, "[Hz] scan");
     visit("command_timeout_s", self.command_timeout_s, Between{0.05, 10.0},
           "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
-    visit("laser_frame", self.laser_frame, Anything{}, "frame of the LiDAR");
+    SensorFrameParams::visit_params(self.sensor_frames, visit);
     visit.group("simulation", self.simulation);
   }
 };
@@ -73,10 +74,13 @@ struct MapServerParams {
 
 struct PerceptionNodeParams {
   double scan_timeout_s = 1.0;
+  double depth_timeout_s = 1.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("scan_timeout_s", self.scan_timeout_s, Between{0.05, 60.0},
           "[s] scans silent for longer are an error in /diagnostics");
+    visit("depth_timeout_s", self.depth_timeout_s, Between{0.05, 60.0},
+          "[s] a depth camera silent for longer is an error in /diagnostics");
   }
 };
 

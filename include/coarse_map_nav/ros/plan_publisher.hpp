@@ -21,7 +21,8 @@ class PlanPublisher {
  public:
   PlanPublisher(ros::NodeHandle& nh, std::string map_frame);
 
-  void publish_status(const Decision& decision, double confidence, int actions);
+  /// `planner`: that decided; null before there is one.
+  void publish_status(const Decision& decision, double confidence, const Planner* planner);
   /// Path and repaired map, both stamped as the belief that they follow from. The map only when it
   /// is another one than before and somebody listens.
   void publish_plan(const Planner& planner, Cell from, const CoarseMap& map,

@@ -26,9 +26,6 @@ struct LidarParams {
   double noise_share = 0.005;
   double dropout = 0.01;
   std::string dropout_value = "inf";
-  double mount_x_m = 0.0;
-  double mount_y_m = 0.0;
-  double mount_yaw_deg = 0.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("beams", self.beams, Between{2, 10000}, "number of beams in a sweep");
@@ -42,17 +39,13 @@ struct LidarParams {
     visit("dropout", self.dropout, Between{0.0, 1.0}, "[-] probability that a beam is lost");
     visit("dropout_value", self.dropout_value, OneOf{{"inf", "nan"}},
           "what a lost or too short beam reads");
-    visit("mount_x_m", self.mount_x_m, Between{-2.0, 2.0}, "[m] forward of the robot's middle");
-    visit("mount_y_m", self.mount_y_m, Between{-2.0, 2.0}, "[m] left of the robot's middle");
-    visit("mount_yaw_deg", self.mount_yaw_deg, Between{-180.0, 180.0},
-          "[deg] of the sensor's x axis in the robot's frame");
   }
 };
 
 /// Takes scans, each in one instant: the motion during a sweep is not simulated.
 class RangeSensor {
  public:
-  RangeSensor(const LidarParams& params, std::uint32_t seed);
+  RangeSensor(const LidarParams& params, std::uint32_t seed, const Pose2& T_robot_sensor = {});
 
   RangeScan measure(const World& world, const Pose2& T_world_robot, double stamp_s);
   /// Unit vectors along the beams, in the sensor's frame.

@@ -35,7 +35,7 @@ class Simulator {
  public:
   /// Throws std::invalid_argument when the robot would start inside an obstacle.
   Simulator(World world, const SimulationParams& params, const Pose2& T_world_start,
-            std::uint32_t seed);
+            std::uint32_t seed, const Pose2& T_robot_lidar = {});
 
   /// Lets `dt_s` > 0 pass under one command, in equal steps of at most 5 ms.
   void advance(double dt_s, const VelocityCommand& command);

@@ -89,12 +89,9 @@ TEST(OverlapModel, APerfectMatchHasLikelihoodOneAndItsOppositeZero) {
         opposite.occupancy[seen.index_of(ix, iy)] = occupied ? 0.0F : 1.0F;
       }
     }
-    const std::vector<std::uint16_t> codes = neighbourhood_codes(map);
     const auto north = static_cast<std::size_t>(index(Heading::kNorth));
-    const std::size_t cell = layout.padded_index(c);
-    const auto at = [&](const Likelihood& likelihood) {
-      return likelihood.values[north][likelihood.is_by_neighbourhood ? codes[cell] : cell];
-    };
+    const std::size_t kind = model.kinds().of_cell[layout.padded_index(c)];
+    const auto at = [&](const Likelihood& likelihood) { return likelihood[north][kind]; };
     EXPECT_NEAR(at(model.measure(seen, 0.0, 1.0, kAllHeadings)), 1.0, 1e-12) << n;
     EXPECT_EQ(at(model.measure(opposite, 0.0, 1.0, kAllHeadings)), 0.0) << n;
   }

@@ -46,6 +46,21 @@ TEST(RayProfile, MeetsTheWallsOfABoxWhereTheyAre) {
   }
 }
 
+TEST(RayProfile, LooksOutFromUnderTheRobot) {
+  // A LiDAR 0.1 m before the robot's middle that does not look back.
+  LocalOccupancy seen = box();
+  for (int iy = 0; iy < seen.size; ++iy) {
+    for (int ix = 0; ix < 82; ++ix) {
+      seen.confidence[seen.index_of(ix, iy)] = 0.0F;
+    }
+  }
+  const RayProfile rays = cast_rays(seen, 0.0, 8.0);
+  EXPECT_TRUE(rays[0].is_hit);
+  EXPECT_NEAR(rays[0].range_m, 2.0, kCell_m);
+  EXPECT_TRUE(rays[kBearingsPerQuarter - 2].is_hit);
+  EXPECT_FALSE(rays[2 * kBearingsPerQuarter].is_known()) << "behind it nobody looked";
+}
+
 TEST(RayProfile, EndsWithoutAHitWhereNobodyLooked) {
   LocalOccupancy seen = box();
   for (int iy = 0; iy < seen.size; ++iy) {

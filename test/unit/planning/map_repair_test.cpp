@@ -40,7 +40,7 @@ LocalOccupancy wall_ahead() {
 bool look(RepairedMap& map, const LocalOccupancy& seen, Point2 position_cells, double yaw_rad = 0.0,
           double scale = 1.0) {
   ClearanceMap clearance;
-  clearance.measure(seen);
+  clearance.measure(seen, 0.5);
   return map.fuse(seen, clearance, kClearance_m, position_cells, yaw_rad, scale);
 }
 

@@ -50,9 +50,8 @@ TEST(RangeSensor, ReachesBothEdgesOfANarrowView) {
 TEST(RangeSensor, SitsWhereItIsMounted) {
   LidarParams params = exact();
   params.beams = 4;
-  params.mount_x_m = 0.25;
-  params.mount_yaw_deg = 180.0;
-  const RangeScan scan = RangeSensor{params, 1}.measure(hall(), {1.0, 1.0, 0.0}, 0.0);
+  const RangeScan scan =
+      RangeSensor{params, 1, {0.25, 0.0, kPi}}.measure(hall(), {1.0, 1.0, 0.0}, 0.0);
   EXPECT_EQ(scan.T_robot_sensor.x, 0.25);
   EXPECT_NEAR(scan.ranges_m[0], 2.75, 1e-6);  // the sensor's back is the robot's front
   EXPECT_NEAR(scan.ranges_m[2], 1.25, 1e-6);

@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/perception/perception.hpp"
+
+#include <cassert>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace cmn {
+namespace {
+
+class SingleLooks : public Accumulator {
+ public:
+  LocalOccupancy fuse(LocalOccupancy look, const Pose2& /*T_odom_robot*/) override { return look; }
+  void forget() override {}
+};
+
+}  // namespace
+
+std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params) {
+  if (params.accumulate == "none") {
+    return std::make_unique<SingleLooks>();
+  }
+  if (params.accumulate == "panorama") {
+    return std::make_unique<Panorama>(params.panorama);
+  }
+  if (params.accumulate == "rolling") {
+    return std::make_unique<RollingMap>(params.rolling);
+  }
+  throw std::invalid_argument("perception/accumulate \"" + params.accumulate +
+                              "\" is none of none, panorama, rolling");
+}
+
+LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
+  assert(a.size == b.size && a.resolution == b.resolution);
+  LocalOccupancy all = a;
+  all.source = ObservationSource::kFused;
+  for (std::size_t i = 0; i < all.cell_count(); ++i) {
+    // Obstacles count more than what lies behind them, that more than free ground.
+    const auto weight = [i](const LocalOccupancy& seen) {
+      return (seen.occupancy[i] > 0.5F ? 2.0F : 0.0F) + seen.confidence[i];
+    };
+    if (weight(b) > weight(a)) {
+      all.occupancy[i] = b.occupancy[i];
+      all.confidence[i] = b.confidence[i];
+    }
+  }
+  return all;
+}
+
+Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
+    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(params)} {}
+
+Perception::Perception(const PerceptionParams& params)
+    : params_{params},
+      depth_{params.depth},
+      seen_{params, params.local_occupancy},
+      local_map_{params, params.local_map} {}
+
+RangeScan Perception::depth_scan(const SensorData& data) {
+  assert(data.image != nullptr || data.cloud != nullptr);
+  return data.image != nullptr ? depth_.scan(*data.image) : depth_.scan(*data.cloud);
+}
+
+Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map) {
+  assert(data.scan != nullptr || !params_.uses_scan());
+  const RangeScan of_depth = params_.uses_depth() ? depth_scan(data) : RangeScan{};
+  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
+  const bool is_fused = params_.uses_scan() && params_.uses_depth();
+  const auto joined = [&](View& view, LocalOccupancy of_guard) {
+    return is_fused ? nearest_of(of_guard, view.depth_projector.project(of_depth)) : of_guard;
+  };
+
+  Percept percept;
+  LocalOccupancy seen = seen_.projector.project(guard, &percept.beams);
+  percept.clear_ahead_m = cmn::clear_ahead_m(guard, seen, params_.guard);
+  percept.seen = seen_.accumulator->fuse(joined(seen_, std::move(seen)), T_odom_robot);
+  percept.is_complete = seen_.accumulator->is_complete();
+  if (with_local_map) {
+    percept.local_map = local_map_.accumulator->fuse(
+        joined(local_map_, local_map_.projector.project(guard)), T_odom_robot);
+  }
+  return percept;
+}
+
+double Perception::clear_ahead_m(const SensorData& data) {
+  const RangeScan of_depth = params_.uses_scan() ? RangeScan{} : depth_scan(data);
+  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
+  return cmn::clear_ahead_m(guard, seen_.projector.project(guard), params_.guard);
+}
+
+void Perception::forget() {
+  seen_.accumulator->forget();
+  local_map_.accumulator->forget();
+}
+
+}  // namespace cmn

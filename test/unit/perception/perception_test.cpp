@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the coarse_map_nav authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse_map_nav/perception/perception.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "box_room.hpp"
+#include <gtest/gtest.h>
+
+namespace cmn {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+PerceptionParams params_of(const std::string& source, const std::string& accumulate = "none") {
+  PerceptionParams params;
+  params.source = source;
+  params.accumulate = accumulate;
+  params.local_occupancy = {60, 6.0, 0.0};
+  params.local_map = {60, 6.0, 0.0};
+  params.guard.type = "footprint";
+  return params;
+}
+
+/// A table 1 m ahead, of which a LiDAR at 0.3 m sees nothing.
+const std::vector<Box> kTable{{{1.0, -0.6, 0.70}, {1.8, 0.6, 0.74}}};
+
+DepthImage depth_of(const std::vector<Box>& boxes) {
+  return depth_of_boxes(boxes, CameraModel::from_field_of_view(160, 120, 87.0 * kPi / 180.0),
+                        camera_mount(0.1, 0.5, 0.2), {});
+}
+
+float occupancy_at(const LocalOccupancy& seen, double x, double y) {
+  return seen
+      .occupancy[seen.index_of(static_cast<int>(std::floor(x / seen.resolution)) + seen.size / 2,
+                               static_cast<int>(std::floor(y / seen.resolution)) + seen.size / 2)];
+}
+float confidence_at(const LocalOccupancy& seen, double x, double y) {
+  return seen
+      .confidence[seen.index_of(static_cast<int>(std::floor(x / seen.resolution)) + seen.size / 2,
+                                static_cast<int>(std::floor(y / seen.resolution)) + seen.size / 2)];
+}
+
+TEST(Perception, ADepthCameraSeesTheTableThatALidarLooksBelow) {
+  const RangeScan scan = scan_of_boxes(kTable, 0.3, 360, {});
+  const DepthImage image = depth_of(kTable);
+  const Percept lidar = Perception{params_of("lidar")}.look({&scan}, {}, true);
+  EXPECT_EQ(occupancy_at(lidar.seen, 1.05, 0.0), 0.0F);
+  EXPECT_EQ(lidar.clear_ahead_m, kInf);
+  const Percept depth = Perception{params_of("depth")}.look({nullptr, &image}, {}, true);
+  EXPECT_EQ(occupancy_at(depth.seen, 1.05, 0.0), 1.0F);
+  EXPECT_EQ(depth.seen.source, ObservationSource::kDepth);
+  EXPECT_NEAR(depth.clear_ahead_m, 1.0 - 0.17, 0.05);
+  EXPECT_EQ(confidence_at(depth.seen, -1.0, 0.0), 0.0F) << "behind it";
+}
+
+TEST(Perception, FusedTheNearestObstacleWinsAndTheLidarAloneGuards) {
+  const RangeScan scan = scan_of_boxes(kTable, 0.3, 360, {});
+  const DepthImage image = depth_of(kTable);
+  const Percept fused = Perception{params_of("fused")}.look({&scan, &image}, {}, true);
+  EXPECT_EQ(fused.seen.source, ObservationSource::kFused);
+  EXPECT_EQ(occupancy_at(fused.seen, 1.05, 0.0), 1.0F) << "the table";
+  EXPECT_EQ(confidence_at(fused.seen, 1.55, 0.0), 0.0F) << "what is under it is not seen";
+  EXPECT_EQ(confidence_at(fused.seen, -1.0, 0.0), 1.0F) << "behind it looks the LiDAR";
+  EXPECT_EQ(confidence_at(fused.seen, 0.35, 0.0), 1.0F)
+      << "and where it is too near for the camera";
+  EXPECT_EQ(occupancy_at(fused.local_map, 1.05, 0.0), 1.0F);
+  EXPECT_EQ(fused.clear_ahead_m, kInf);
+}
+
+TEST(Perception, TheGroundTooNearForACameraIsOnlyPresumedFreeAndMemoryOutweighsIt) {
+  Perception perception{params_of("depth", "rolling")};
+  const std::vector<Box> block{{{1.5, -0.2, 0.0}, {1.7, 0.2, 0.15}}};
+  Percept percept;
+  for (double x = 0.0; x < 1.25; x += 0.1) {
+    const DepthImage image =
+        depth_of_boxes(block, CameraModel::from_field_of_view(160, 120, 87.0 * kPi / 180.0),
+                       camera_mount(0.1, 0.5, 0.2), {x, 0.0, 0.0});
+    percept = perception.look({nullptr, &image}, {x, 0.0, 0.0}, false);
+  }
+  // 0.3 m ahead the low block is below the view.
+  EXPECT_EQ(confidence_at(Perception{params_of("depth")}
+                              .look({nullptr,
+                                     [] {
+                                       static const DepthImage kImage = depth_of({});
+                                       return &kImage;
+                                     }()},
+                                    {}, false)
+                              .seen,
+                          0.35, 0.0),
+            kPresumed);
+  EXPECT_GT(occupancy_at(percept.seen, 0.35, 0.0), 0.5F);
+}
+
+TEST(Perception, ABlindCameraAllowsNoStep) {
+  DepthImage image = depth_of({});
+  image.depth_m.setTo(0.0F);
+  Perception perception{params_of("depth")};
+  EXPECT_EQ(perception.look({nullptr, &image}, {}, false).clear_ahead_m, 0.0);
+  EXPECT_EQ(perception.clear_ahead_m({nullptr, &image}), 0.0);
+  const DepthImage free = depth_of({});
+  EXPECT_EQ(perception.clear_ahead_m({nullptr, &free}), kInf);
+}
+
+TEST(Perception, APanoramaIsPartialUntilAllFourLooksAreThere) {
+  Perception perception{params_of("depth", "panorama")};
+  const DepthImage image = depth_of(kTable);
+  for (int turn = 0; turn < 5; ++turn) {
+    const Percept percept = perception.look({nullptr, &image}, {0.0, 0.0, turn * kPi / 2.0}, true);
+    EXPECT_EQ(percept.is_complete, turn == 4);
+  }
+  perception.forget();
+  EXPECT_FALSE(perception.look({nullptr, &image}, {}, true).is_complete);
+}
+
+TEST(Perception, AnUnknownAccumulatorIsRefused) {
+  EXPECT_THROW(Perception{params_of("lidar", "hoarding")}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace cmn
