@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/scene/ray_cast_sensors.hpp"
 
-#include <cmath>
 #include <random>
 #include <utility>
 
@@ -44,9 +43,7 @@ RangeScan RayCastSensors::scan(const Pose2& T_world_robot, double stamp_s) {
   for (const Hit& hit : hits_) {
     ranges_m.push_back(hit.way);
   }
-  const Eigen::Vector3d ahead = mounts_.T_robot_lidar.linear().col(0);
-  const Eigen::Vector3d at = mounts_.T_robot_lidar.translation();
-  return lidar_.read(ranges_m, {at.x(), at.y(), std::atan2(ahead.y(), ahead.x())}, stamp_s);
+  return lidar_.read(ranges_m, seen_from_above(mounts_.T_robot_lidar), stamp_s);
 }
 
 DepthImage RayCastSensors::depth(const Pose2& T_world_robot, double stamp_s) {

@@ -30,8 +30,7 @@ struct RayCastSensorParams {
   }
 };
 
-/// One robot's sensors in one scene. The LiDAR sits where the mounts say; LidarParams' own mount is
-/// that of the planar world. Several robots may share a caster.
+/// One robot's sensors in one scene. Several robots may share a caster.
 class RayCastSensors : public SceneSensors {
  public:
   RayCastSensors(std::shared_ptr<const RayCaster> caster, const RayCastSensorParams& params,
