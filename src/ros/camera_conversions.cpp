@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <utility>
 
 #include <sensor_msgs/image_encodings.h>
 
@@ -127,9 +129,12 @@ std::optional<DepthImage> depth_of(const sensor_msgs::Image& image, const Camera
     depth.stamp_s = image.header.stamp.toSec();
     depth.camera = camera;
     depth.T_robot_camera = T_robot_camera;
-    // OpenCV's header has no const; nothing is written through it.
-    const cv::Mat pixels(camera.height, camera.width, is_mm ? CV_16UC1 : CV_32FC1,
-                         const_cast<std::uint8_t*>(image.data.data()), image.step);
+    // Row by row: a step that is no whole number of pixels is odd, but well.
+    cv::Mat pixels(camera.height, camera.width, is_mm ? CV_16UC1 : CV_32FC1);
+    for (int v = 0; v < camera.height; ++v) {
+      std::memcpy(pixels.ptr(v), image.data.data() + static_cast<std::size_t>(v) * image.step,
+                  row_bytes);
+    }
     pixels.convertTo(depth.depth_m, CV_32FC1, is_mm ? 0.001 : 1.0);
     return depth;
   }

@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto camera = cmn::camera_of(info, why);
   const auto depth = camera ? cmn::depth_of(image, *camera, mount, why) : std::nullopt;
   if (depth) {
-    cmn::check(cmn::DepthProjector{cmn::DepthParams{}}.scan(*depth));
+    cmn::check(cmn::DepthProjector{cmn::coarse_bearings()}.scan(*depth));
   } else {
     cmn::require(!why.empty(), "there is a reason");
   }

@@ -58,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   cloud.data = input.rest();
   std::string why;
   if (const auto view = cmn::view_of(cloud, mount, why)) {
-    cmn::check(cmn::DepthProjector{cmn::DepthParams{}}.scan(*view));
+    cmn::check(cmn::DepthProjector{cmn::coarse_bearings()}.scan(*view));
   } else {
     cmn::require(!why.empty(), "there is a reason");
   }

@@ -236,5 +236,24 @@ TEST_F(PlannerTest, TheSameSeedDecidesTheSame) {
   }
 }
 
+TEST_F(PlannerTest, LookingRoundIsNoActionOfTheJourneyAndTeachesNothingAboutTheWayAhead) {
+  EXPECT_EQ(planner_.look_round(0.0).action.type, ActionType::kStop) << "without a goal";
+  params_.max_actions = 1;
+  planner_ = Planner{map_, params_};
+  ASSERT_FALSE(planner_.set_goal({2.25, 2.75}));
+  const Decision forward = decide_at(Heading::kEast, {1, 3});
+  planner_.action_ended(MotionOutcome::kBlocked);
+  for (int pivot = 1; pivot <= 4; ++pivot) {
+    const Decision turn = planner_.look_round(0.2);
+    EXPECT_EQ(turn.action.type, ActionType::kTurnLeft);
+    EXPECT_EQ(turn.action.axes_yaw_rad, 0.2);
+    EXPECT_TRUE(turn.is_pivot);
+    EXPECT_EQ(planner_.pivots(), pivot);
+    planner_.action_ended(MotionOutcome::kSucceeded);
+  }
+  EXPECT_EQ(planner_.actions(), 1);
+  EXPECT_FALSE(forward.is_pivot);
+}
+
 }  // namespace
 }  // namespace cmn

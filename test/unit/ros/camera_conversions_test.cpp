@@ -123,9 +123,9 @@ TEST(DepthConversion, MillimetresAndMetresBecomeMetres) {
   const auto camera = camera_of(camera_info(), why);
   ASSERT_TRUE(camera) << why;
   EXPECT_EQ(camera->cx, 1.5);
-  sensor_msgs::Image mm = image_of("16UC1", 10);  // two bytes of padding
+  sensor_msgs::Image mm = image_of("16UC1", 11);  // padding that is no whole pixel
   const std::uint16_t depth_mm = 1234;
-  std::memcpy(mm.data.data() + 10 + 2, &depth_mm, 2);
+  std::memcpy(mm.data.data() + 11 + 2, &depth_mm, 2);
   const auto of_mm = depth_of(mm, *camera, kMount, why);
   ASSERT_TRUE(of_mm) << why;
   EXPECT_NEAR(of_mm->depth_m.at<float>(1, 1), 1.234, 1e-6);
