@@ -4,6 +4,8 @@
 /// cmn_params: prints all parameters with their defaults, and checks preset files.
 
 #include "coarse_map_nav/data/param_tree.hpp"
+#include "coarse_map_nav/learning/example_renderer.hpp"
+#include "coarse_map_nav/learning/training.hpp"
 #include "coarse_map_nav/params.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
 
@@ -51,6 +53,10 @@ std::vector<Chapter> chapters() {
       {"localizer", own, cmn::list_params(cmn::LocalizerNodeParams{})},
       {"planner", own, cmn::list_params(cmn::PlannerNodeParams{})},
       {"motion_controller", own, cmn::list_params(cmn::MotionNodeParams{})},
+      {"cmn_dataset", "Of the file that `cmn_dataset --params` takes.",
+       cmn::list_params(cmn::ExampleParams{})},
+      {"cmn_train", "Of the file that `cmn_train --params` takes.",
+       cmn::list_params(cmn::TrainingParams{})},
   };
 }
 
