@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <cstdlib>
+#include <utility>
 
 #include <opencv2/core.hpp>
 
