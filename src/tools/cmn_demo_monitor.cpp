@@ -106,7 +106,8 @@ class DemoMonitor {
     }
     await("a map", [this] { return map_.has_value(); });
     await("the planner", [this] { return client_.isServerConnected(); });
-    await("a first belief", [this] { return belief_ != nullptr; });
+    // Not a first belief: that of a panorama begins with the journey.
+    await("the localizer", [this] { return belief_sub_.getNumPublishers() > 0; });
     await("ground truth", [this] { return truth_.has_value() || params_.world.empty(); });
     if (ros::ok() && is_going()) {
       send_goal();
@@ -156,7 +157,9 @@ class DemoMonitor {
     if (truth_) {
       record_.add(cmn::TrackPoint{0.0, *truth_});
     }
-    record(*belief_);
+    if (belief_) {
+      record(*belief_);
+    }
     move_base_msgs::MoveBaseGoal goal;
     goal.target_pose.header.frame_id = params_.map_frame;
     goal.target_pose.header.stamp = start_;

@@ -10,17 +10,16 @@
 #include "coarse_map_nav/data/localization.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/planning/cost_to_go.hpp"
+#include "coarse_map_nav/planning/decision.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
 #include "coarse_map_nav/planning/map_repair.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace cmn {
@@ -59,30 +58,6 @@ struct PlanningParams {
     visit("seed", self.seed, Between{0, 4294967295.0}, "seed of the policy's random choices");
   }
 };
-
-/// How the journey stands; values as in msg/NavigationStatus.
-enum class NavigationState : std::uint8_t {
-  kWaitingForMap = 0,
-  kLocalizing,
-  kNavigating,
-  kReached,
-  kFailed,
-  kStopped
-};
-
-/// What to do now.
-struct Decision {
-  NavigationState state = NavigationState::kStopped;
-  Action action;  ///< kStop when the state is an end
-  double distance_to_go_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN without a path
-  std::string text;       ///< one sentence for a person
-  bool is_pivot = false;  ///< the action completes a look and is not counted
-};
-
-/// To stand still, and why.
-inline Decision resting(NavigationState state, std::string why) {
-  return {state, Action{}, std::numeric_limits<double>::quiet_NaN(), std::move(why)};
-}
 
 /// Holds the goal, asks the policy, declares the end.
 ///
