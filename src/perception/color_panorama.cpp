@@ -13,9 +13,9 @@ namespace cmn {
 namespace {
 
 Eigen::Matrix3d intrinsics(const CameraModel& camera) {
-  Eigen::Matrix3d K;
-  K << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
-  return K;
+  Eigen::Matrix3d intrinsics;
+  intrinsics << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
+  return intrinsics;
 }
 
 /// The model of the same camera with its image resized.
@@ -54,12 +54,12 @@ cv::Mat level_view(const cv::Mat& image, const CameraModel& camera,
   cv::Mat source;
   cv::resize(image, source, size, 0.0, 0.0, cv::INTER_AREA);
   // Where a ray of the level view meets the image; behind the image plane there is no pixel.
-  const Eigen::Matrix3d H =
+  const Eigen::Matrix3d homography =
       intrinsics(resized(camera, size)) * R_level_camera.transpose() * intrinsics(level).inverse();
   cv::Mat_<cv::Vec2f> from(kViewSide, kViewSide);
   for (int v = 0; v < kViewSide; ++v) {
     for (int u = 0; u < kViewSide; ++u) {
-      const Eigen::Vector3d p = H * Eigen::Vector3d{u * 1.0, v * 1.0, 1.0};
+      const Eigen::Vector3d p = homography * Eigen::Vector3d{u * 1.0, v * 1.0, 1.0};
       from(v, u) = p.z() > 1e-6 ? cv::Vec2f{static_cast<float>(p.x() / p.z()),
                                             static_cast<float>(p.y() / p.z())}
                                 : cv::Vec2f{-10.0F, -10.0F};

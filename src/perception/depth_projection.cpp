@@ -290,17 +290,17 @@ void DepthProjector::sort_in(std::size_t count, bool is_organised, const RangeSc
   // Without branches, for the compiler to do several at once.
   for (std::size_t i = 0; i < count; ++i) {
     const float square_m2 = square_m2_[i];
-    const bool is_point = (square_m2 >= least_m2) & (square_m2 < kInfinity);
-    const bool is_in_band = (z_[i] > -lowest_m) & (z_[i] < highest_m);
+    const unsigned is_point = unsigned{square_m2 >= least_m2} & unsigned{square_m2 < kInfinity};
+    const unsigned is_in_band = unsigned{z_[i] > -lowest_m} & unsigned{z_[i] < highest_m};
     const std::int32_t log_range = log_range_of(square_m2) - nearest + 1;
     const auto beam = static_cast<std::int32_t>(bearing_[i]);
     // All around, half a bin before the first is last.
     const std::int32_t row = beam > beams ? beam - beams : beam;
     const std::int32_t bin = row * range_bins + std::min(log_range, farthest);
-    const bool is_in_way = (z_[i] > lowest_m) & (log_range <= farthest);
-    points += is_point;
-    bin_[i] = is_point & is_in_band ? bin : none;
-    in_way_[i] = is_in_way ? 1U : 0U;
+    const unsigned is_in_way = unsigned{z_[i] > lowest_m} & unsigned{log_range <= farthest};
+    points += static_cast<std::int32_t>(is_point);
+    bin_[i] = (is_point & is_in_band) != 0U ? bin : none;
+    in_way_[i] = is_in_way;
   }
   report_.points += static_cast<std::size_t>(points);
   constexpr float kGap = (1.0F + kEdge) * (1.0F + kEdge);

@@ -69,8 +69,9 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
   const RangeScan of_depth = params_.uses_depth() ? depth_scan(data) : RangeScan{};
   const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
   const bool is_fused = params_.uses_scan() && params_.uses_depth();
-  const auto joined = [&](View& view, LocalOccupancy of_guard) {
-    return is_fused ? nearest_of(of_guard, view.depth_projector.project(of_depth)) : of_guard;
+  const auto joined = [&](View& view, LocalOccupancy&& of_guard) {
+    return is_fused ? nearest_of(of_guard, view.depth_projector.project(of_depth))
+                    : std::move(of_guard);
   };
 
   Percept percept;

@@ -136,10 +136,10 @@ MeshScene extrude(const CoarseMap& map, const ExtrusionParams& params) {
   }
   add_lamps(grid, grid.bounds());
   MeshScene scene;
-  const Pose2& T = map.T_map_grid();
+  const Pose2& T_map_grid = map.T_map_grid();
   add(scene, grid,
-      Eigen::Affine3d{Eigen::Translation3d{T.x, T.y, 0.0} *
-                      Eigen::AngleAxisd{T.yaw, Eigen::Vector3d::UnitZ()}});
+      Eigen::Affine3d{Eigen::Translation3d{T_map_grid.x, T_map_grid.y, 0.0} *
+                      Eigen::AngleAxisd{T_map_grid.yaw, Eigen::Vector3d::UnitZ()}});
   return scene;
 }
 

@@ -128,9 +128,9 @@ class HouseBuilder {
   }
 
   void add_piece(const Furniture& piece) {
-    const Pose2& T = piece.T_house_piece;
-    const Eigen::Affine3d T_house_piece{Eigen::Translation3d{T.x, T.y, 0.0} *
-                                        Eigen::AngleAxisd{T.yaw, Eigen::Vector3d::UnitZ()}};
+    const Pose2& pose = piece.T_house_piece;
+    const Eigen::Affine3d T_house_piece{Eigen::Translation3d{pose.x, pose.y, 0.0} *
+                                        Eigen::AngleAxisd{pose.yaw, Eigen::Vector3d::UnitZ()}};
     if (meshes_ != nullptr) {
       std::mt19937_64 rng{seed_of(piece)};
       if (const std::optional<MeshScene> mesh = meshes_->fit(piece, rng)) {

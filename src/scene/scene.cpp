@@ -62,13 +62,13 @@ Eigen::AlignedBox3f MeshScene::bounds() const {
 }
 
 void add(MeshScene& scene, const MeshScene& part, const Eigen::Affine3d& T_scene_part) {
-  const Eigen::Affine3f T = T_scene_part.cast<float>();
+  const Eigen::Affine3f to_scene = T_scene_part.cast<float>();
   const Eigen::Matrix3f turn = T_scene_part.linear().inverse().transpose().cast<float>();
   const std::uint32_t first = count_of(scene.vertices);
   const auto first_material = static_cast<std::uint32_t>(scene.materials.size());
   for (std::size_t i = 0; i < part.vertices.size(); ++i) {
     const Eigen::Vector3f normal = turn * part.normals[i];
-    add_vertex(scene, T * part.vertices[i], normal.isZero() ? normal : normal.normalized(),
+    add_vertex(scene, to_scene * part.vertices[i], normal.isZero() ? normal : normal.normalized(),
                part.texture_points[i]);
   }
   for (Triangle triangle : part.triangles) {
@@ -80,8 +80,8 @@ void add(MeshScene& scene, const MeshScene& part, const Eigen::Affine3d& T_scene
   }
   scene.materials.insert(scene.materials.end(), part.materials.begin(), part.materials.end());
   for (Light light : part.lights) {
-    light.position = T * light.position;
-    light.direction = (T.linear() * light.direction).normalized();
+    light.position = to_scene * light.position;
+    light.direction = (to_scene.linear() * light.direction).normalized();
     scene.lights.push_back(light);
   }
 }

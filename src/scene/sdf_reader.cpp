@@ -105,12 +105,12 @@ class SdfReader {
       warn(element.Name(), errors.front().Message() + " Its plain pose is taken.");
       pose = element.RawPose();
     }
-    const Eigen::Affine3d T = affine(pose);
-    if (!T.matrix().allFinite() || T.translation().norm() > 1e5) {
+    const Eigen::Affine3d T_parent_child = affine(pose);
+    if (!T_parent_child.matrix().allFinite() || T_parent_child.translation().norm() > 1e5) {
       warn(element.Name(), "its pose is no place; it is left out");
       return std::nullopt;
     }
-    return T;
+    return T_parent_child;
   }
 
   void read(const sdf::World& world) {
@@ -130,12 +130,12 @@ class SdfReader {
     if (!pose) {
       return;
     }
-    const Eigen::Affine3d T = T_world_parent * *pose;
+    const Eigen::Affine3d T_world_child = T_world_parent * *pose;
     for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      read(*model.LinkByIndex(i), T);
+      read(*model.LinkByIndex(i), T_world_child);
     }
     for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-      read(*model.ModelByIndex(i), T);
+      read(*model.ModelByIndex(i), T_world_child);
     }
   }
 
@@ -144,19 +144,19 @@ class SdfReader {
     if (!pose) {
       return;
     }
-    const Eigen::Affine3d T = T_world_model * *pose;
+    const Eigen::Affine3d T_world_link = T_world_model * *pose;
     for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
-      read(*link.LightByIndex(i), T);
+      read(*link.LightByIndex(i), T_world_link);
     }
     if (part_ == SdfPart::kVisual) {
       for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
         const sdf::Visual& visual = *link.VisualByIndex(i);
-        read(visual, visual.Geom(), material_of(visual), T);
+        read(visual, visual.Geom(), material_of(visual), T_world_link);
       }
     } else {
       for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
         const sdf::Collision& collision = *link.CollisionByIndex(i);
-        read(collision, collision.Geom(), std::nullopt, T);
+        read(collision, collision.Geom(), std::nullopt, T_world_link);
       }
     }
   }
@@ -167,11 +167,12 @@ class SdfReader {
       return;
     }
     Light light;
-    const Eigen::Affine3d T = T_world_parent * *pose;
+    const Eigen::Affine3d T_world_light = T_world_parent * *pose;
     const auto& along = from.Direction();
-    light.position = T.translation().cast<float>();
-    light.direction =
-        (T.linear() * Eigen::Vector3d{along.X(), along.Y(), along.Z()}).normalized().cast<float>();
+    light.position = T_world_light.translation().cast<float>();
+    light.direction = (T_world_light.linear() * Eigen::Vector3d{along.X(), along.Y(), along.Z()})
+                          .normalized()
+                          .cast<float>();
     light.is_sun = from.Type() == sdf::LightType::DIRECTIONAL;
     light.strength = static_cast<float>(from.Intensity()) * rgb(from.Diffuse());
     light.falloff =
@@ -329,14 +330,14 @@ class SdfReader {
         warnings_.emplace_back(e.what());
       }
     }
-    const Eigen::Affine3d T = T_world_mesh * Eigen::Scaling(scale);
+    const Eigen::Affine3d T_world_part = T_world_mesh * Eigen::Scaling(scale);
     if (!material) {
-      add_part(at->second, T);
+      add_part(at->second, T_world_part);
       return;
     }
     MeshScene painted = at->second;
     std::fill(painted.materials.begin(), painted.materials.end(), *material);
-    add_part(painted, T);
+    add_part(painted, T_world_part);
   }
 
   void add_part(const MeshScene& part, const Eigen::Affine3d& T_world_part) {

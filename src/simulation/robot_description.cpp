@@ -82,11 +82,11 @@ int nesting_of(const std::string& xml) {
 }
 
 Eigen::Isometry3d pose_of(const urdf::Pose& pose) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() = Eigen::Vector3d{pose.position.x, pose.position.y, pose.position.z};
+  Eigen::Isometry3d T_parent_child = Eigen::Isometry3d::Identity();
+  T_parent_child.translation() = Eigen::Vector3d{pose.position.x, pose.position.y, pose.position.z};
   const urdf::Rotation& q = pose.rotation;
-  T.linear() = Eigen::Quaterniond{q.w, q.x, q.y, q.z}.toRotationMatrix();
-  return T;
+  T_parent_child.linear() = Eigen::Quaterniond{q.w, q.x, q.y, q.z}.toRotationMatrix();
+  return T_parent_child;
 }
 
 /// Places the links from the root outwards. urdfdom itself accepts links in a ring of their own and
