@@ -4,6 +4,7 @@
 /// Any small picture -> cells of a drawing.
 #include "coarse_map_nav/mapping/sketch.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fuzz_input.hpp"
@@ -34,8 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   cv::Mat picture(height, width, input.take<std::uint8_t>() % 2 == 0 ? CV_8UC1 : CV_8UC3);
   picture = cv::Scalar::all(255);
   const std::vector<std::uint8_t> bytes = input.rest();
-  std::memcpy(picture.data, bytes.data(),
-              std::min(bytes.size(), picture.total() * picture.elemSize()));
+  std::copy_n(bytes.begin(), std::min(bytes.size(), picture.total() * picture.elemSize()),
+              picture.data);
   try {
     const cmn::Sketch sketch = cmn::read_sketch(picture, params);
     const auto& cells = sketch.occupied.values();
