@@ -135,6 +135,10 @@ RobotDescription parse_robot_description(const std::string& xml, const std::stri
   }
   if (!model) {
     problems.add("is no URDF");
+  } else {
+    for (const auto& [link_name, link] : model->links_) {
+      link->child_links.clear();  // links in a ring would own each other for ever
+    }
   }
   problems.throw_if_any(name);
   place_links(*model, robot, problems);

@@ -132,6 +132,8 @@ TEST(RobotDescription, RejectsLinksThatFormNoTree) {
   EXPECT_THAT(problem(link("a") + link("b") + link("c") + fixed("b", "c") + fixed("c", "b")),
               AllOf(HasSubstr("link b is not joined to the root a"),
                     HasSubstr("link c is not joined to the root a")));
+  EXPECT_THAT(problem(link("a") + link("b") + fixed("a", "a")),
+              HasSubstr("link a is not joined to the root b"));
   EXPECT_THAT(problem(link("a") + link("b") + link("c") + fixed("a", "b") + fixed("a", "c") +
                       fixed("b", "c")),
               HasSubstr("link c has two parents"));
