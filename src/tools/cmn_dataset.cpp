@@ -27,6 +27,7 @@
 #include <thread>
 #include <vector>
 
+#include "needed_options.hpp"
 #include "tool_main.hpp"
 #include <boost/program_options.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -52,29 +53,6 @@ struct Plan {
   int jobs = 1;
   cmn::ExampleParams params;
 };
-
-std::string needed(const po::variables_map& given, const char* option) {
-  if (given.count(option) == 0) {
-    throw std::runtime_error(std::string{"--"} + option + " is needed; --help explains");
-  }
-  return given[option].as<std::string>();
-}
-
-cmn::ExampleParams params_of(const po::variables_map& given) {
-  cmn::ExampleParams params;
-  if (given.count("params") == 0) {
-    return params;
-  }
-  const std::string path = given["params"].as<std::string>();
-  std::string report;
-  for (const std::string& problem : cmn::load_params(cmn::read_param_file(path), params)) {
-    report += (report.empty() ? "" : "\n  ") + problem;
-  }
-  if (!report.empty()) {
-    throw std::runtime_error(path + ": " + report);
-  }
-  return params;
-}
 
 std::vector<cmn::Example> examples_of(cmn::MeshScene scene, const Plan& plan, std::uint32_t house) {
   const std::uint64_t seed = plan.seed * 0x100000000U + house;
@@ -221,13 +199,13 @@ int run(int argc, char** argv) {
     return argc == 1 ? EXIT_FAILURE : EXIT_SUCCESS;
   }
   Plan plan;
-  plan.out = needed(given, "out");
+  plan.out = cmn::needed(given, "out");
   plan.first_house = given["first-house"].as<std::uint32_t>();
   plan.houses = given["houses"].as<std::size_t>();
   plan.views = given["views"].as<std::size_t>();
   plan.seed = given["seed"].as<std::uint64_t>();
   plan.jobs = given["jobs"].as<int>();
-  plan.params = params_of(given);
+  plan.params = cmn::params_of<cmn::ExampleParams>(given);
   if (plan.jobs < 1 || plan.views < 1 || plan.houses < 1) {
     throw std::runtime_error("--jobs, --views and --houses are 1 or more");
   }

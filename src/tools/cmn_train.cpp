@@ -17,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "needed_options.hpp"
 #include "tool_main.hpp"
 #include <boost/program_options.hpp>
 #include <unistd.h>
@@ -41,29 +42,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string needed(const po::variables_map& given, const char* option) {
-  if (given.count(option) == 0) {
-    throw std::runtime_error(std::string{"--"} + option + " is needed; --help explains");
-  }
-  return given[option].as<std::string>();
-}
-
-cmn::TrainingParams params_of(const po::variables_map& given) {
-  cmn::TrainingParams params;
-  if (given.count("params") == 0) {
-    return params;
-  }
-  const std::string path = given["params"].as<std::string>();
-  std::string report;
-  for (const std::string& problem : cmn::load_params(cmn::read_param_file(path), params)) {
-    report += (report.empty() ? "" : "\n  ") + problem;
-  }
-  if (!report.empty()) {
-    throw std::runtime_error(path + ": " + report);
-  }
-  return params;
-}
-
 void print_row(const cmn::EpochRow& row) {
   std::printf("epoch %d: loss %.4f, validation %.4f; free space: AP %.4f, IoU %.4f, ECE %.4f\n",
               row.epoch, row.train_loss, row.validation_loss, row.average_precision, row.iou,
@@ -72,11 +50,11 @@ void print_row(const cmn::EpochRow& row) {
 
 int train(const po::variables_map& given) {
   cmn::TrainingJob job;
-  job.data = needed(given, "data");
-  job.out = needed(given, "out");
+  job.data = cmn::needed(given, "data");
+  job.out = cmn::needed(given, "out");
   job.seed = given["seed"].as<std::uint64_t>();
   job.threads = given["threads"].as<int>();
-  job.params = params_of(given);
+  job.params = cmn::params_of<cmn::TrainingParams>(given);
   if (job.threads < 1) {
     throw std::runtime_error("--threads is not 1 or more");
   }
@@ -123,7 +101,7 @@ int evaluate(const po::variables_map& given) {
   cmn::PredictorOptions options;
   options.threads = given["threads"].as<int>();
   const auto predictor = cmn::load_predictor(path, options);
-  cmn::ExampleSet examples{needed(given, "data"),
+  cmn::ExampleSet examples{cmn::needed(given, "data"),
                            cmn::parse_split(given["split"].as<std::string>())};
   const Stopwatch watch;
   const cmn::PredictionScores scores = cmn::evaluate_predictor(
