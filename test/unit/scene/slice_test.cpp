@@ -6,6 +6,9 @@
 #include "coarse_map_nav/scene/scene_world.hpp"
 #include "coarse_map_nav/scene/sdf_reader.hpp"
 
+#include <array>
+#include <cstddef>
+
 #include "ascii_map.hpp"
 #include "file_fixture.hpp"
 #include "scenes.hpp"
@@ -108,8 +111,9 @@ TEST(Slice, OfTheSmallHouseAgreesWithItsShippedMap) {
   const CoarseMap ours = slice(read_sdf(world, warnings), params);
   // The map's yaml: origin -12.5, -12.5; 0.05 m; occupied above 0.65, free below 0.196.
   const cv::Mat theirs = cv::imread(picture, cv::IMREAD_GRAYSCALE);
-  int known = 0;
-  int agree = 0;
+  // Of what the map shows as occupied, and as free.
+  std::array<int, 2> known{};
+  std::array<int, 2> agree{};
   for (int row = 0; row < theirs.rows; ++row) {
     for (int column = 0; column < theirs.cols; ++column) {
       const double p = (255 - theirs.at<std::uint8_t>(row, column)) / 255.0;
@@ -118,16 +122,22 @@ TEST(Slice, OfTheSmallHouseAgreesWithItsShippedMap) {
       }
       const Cell at =
           ours.cell_of({-12.5 + 0.05 * (column + 0.5), -12.5 + 0.05 * (theirs.rows - row - 0.5)});
+      const bool is_free = p < 0.196;
       bool is_near = false;
       for (int i = 0; i < 9; ++i) {
-        is_near |= ours.is_free({at.x + i % 3 - 1, at.y + i / 3 - 1}) == (p < 0.196);
+        is_near |= ours.is_free({at.x + i % 3 - 1, at.y + i / 3 - 1}) == is_free;
       }
-      ++known;
-      agree += is_near;
+      const std::size_t kind = is_free ? 1 : 0;
+      ++known[kind];
+      agree[kind] += is_near ? 1 : 0;
     }
   }
-  // Measured: 0.985. What differs are outer walls that the map shows as free, and thin things.
-  EXPECT_GT(static_cast<double>(agree) / known, 0.98);
+  const auto share = [](int part, int all) { return static_cast<double>(part) / all; };
+  // Measured: 0.985, 0.929, 0.988. What differs are outer walls that the map shows as free, and
+  // thin things.
+  EXPECT_GT(share(agree[0] + agree[1], known[0] + known[1]), 0.98);
+  EXPECT_GT(share(agree[0], known[0]), 0.92);
+  EXPECT_GT(share(agree[1], known[1]), 0.98);
 }
 
 }  // namespace
