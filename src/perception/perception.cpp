@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/perception.hpp"
 
+#include "coarse_map_nav/perception/predicted_grid.hpp"
+
 #include <cassert>
 #include <cstddef>
 #include <optional>
@@ -24,6 +26,9 @@ std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params) {
     return std::make_unique<SingleLooks>();
   }
   if (params.accumulate == "panorama") {
+    if (params.uses_color()) {  // what is collected are the images
+      return std::make_unique<SingleLooks>();
+    }
     return std::make_unique<Panorama>(params.panorama);
   }
   if (params.accumulate == "rolling") {
@@ -53,11 +58,19 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
 Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
     : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(params)} {}
 
-Perception::Perception(const PerceptionParams& params)
+Perception::Perception(const PerceptionParams& params,
+                       std::shared_ptr<OccupancyPredictor> predictor)
     : params_{params},
       depth_{params.depth},
+      predictor_{std::move(predictor)},
+      color_looks_{params.accumulate == "panorama"},
       seen_{params, params.local_occupancy},
-      local_map_{params, params.local_map} {}
+      local_map_{params, params.local_map} {
+  if (params.uses_color() && predictor_ == nullptr) {
+    throw std::invalid_argument(
+        "perception/source is rgb, but there is no network to predict with");
+  }
+}
 
 RangeScan Perception::depth_scan(const SensorData& data) {
   assert(data.image != nullptr || data.cloud != nullptr);
@@ -66,6 +79,7 @@ RangeScan Perception::depth_scan(const SensorData& data) {
 
 Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map) {
   assert(data.scan != nullptr || !params_.uses_scan());
+  assert(data.color != nullptr || !params_.uses_color());
   const RangeScan of_depth = params_.uses_depth() ? depth_scan(data) : RangeScan{};
   const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
   const bool is_fused = params_.uses_scan() && params_.uses_depth();
@@ -77,6 +91,10 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
   Percept percept;
   LocalOccupancy seen = seen_.projector.project(guard, &percept.beams);
   percept.clear_ahead_m = cmn::clear_ahead_m(guard, seen, params_.guard);
+  if (params_.uses_color()) {
+    look_in_color(*data.color, T_odom_robot, with_local_map, percept);
+    return percept;
+  }
   percept.seen = seen_.accumulator->fuse(joined(seen_, std::move(seen)), T_odom_robot);
   percept.is_complete = seen_.accumulator->is_complete();
   if (with_local_map) {
@@ -86,6 +104,26 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
   return percept;
 }
 
+void Perception::look_in_color(const ColorImage& image, const Pose2& T_odom_robot,
+                               bool with_local_map, Percept& percept) {
+  const ColorPanorama panorama = color_looks_.add(image, T_odom_robot);
+  percept.is_complete = color_looks_.is_complete();
+  if (!percept.is_complete) {  // nobody concludes anything from it: not worth a prediction
+    percept.seen = laid_on_grid({}, params_.local_occupancy, params_.rgb.least_in_sight);
+    percept.seen.stamp_s = image.stamp_s;
+    return;
+  }
+  const PredictedOccupancy predicted = predictor_->predict(panorama);
+  const auto fused = [&](View& view, const ProjectionParams& grid) {
+    return view.accumulator->fuse(laid_on_grid(predicted, grid, params_.rgb.least_in_sight),
+                                  T_odom_robot);
+  };
+  percept.seen = fused(seen_, params_.local_occupancy);
+  if (with_local_map) {
+    percept.local_map = fused(local_map_, params_.local_map);
+  }
+}
+
 double Perception::clear_ahead_m(const SensorData& data) {
   const RangeScan of_depth = params_.uses_scan() ? RangeScan{} : depth_scan(data);
   const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
@@ -93,6 +131,7 @@ double Perception::clear_ahead_m(const SensorData& data) {
 }
 
 void Perception::forget() {
+  color_looks_.forget();
   seen_.accumulator->forget();
   local_map_.accumulator->forget();
 }

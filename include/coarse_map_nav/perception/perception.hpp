@@ -10,8 +10,10 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/data/point_cloud.hpp"
 #include "coarse_map_nav/perception/accumulator.hpp"
+#include "coarse_map_nav/perception/color_looks.hpp"
 #include "coarse_map_nav/perception/depth_projection.hpp"
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/perception/occupancy_predictor.hpp"
 #include "coarse_map_nav/perception/panorama.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/perception/rolling_map.hpp"
@@ -21,27 +23,41 @@
 
 namespace cmn {
 
+struct RgbParams {
+  std::string model;
+  double least_in_sight = 0.5;
+  template <class Self, class Visitor>
+  static void visit_params(Self& self, Visitor&& visit) {
+    visit("model", self.model, Anything{},
+          "rgb: file of the network (TorchScript), see seeing-in-colour.md");
+    visit("least_in_sight", self.least_in_sight, Between{0.0, 1.0},
+          "[-] rgb: a cell is seen when the network gives it at least this chance to be in sight");
+  }
+};
+
 struct PerceptionParams {
   std::string source = "lidar";
   std::string accumulate = "none";
   DepthParams depth;
+  RgbParams rgb;
   PanoramaParams panorama;
   RollingMapParams rolling;
   ProjectionParams local_occupancy;
   ProjectionParams local_map{160, 8.0, 0.0};
   ObstacleGuardParams guard;
   bool uses_scan() const { return source != "depth"; }
-  bool uses_depth() const { return source != "lidar"; }
+  bool uses_depth() const { return source == "depth" || source == "fused"; }
+  bool uses_color() const { return source == "rgb"; }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit(
-        "source", self.source, OneOf{{"lidar", "depth", "fused"}},
-        "the sensor that local occupancy is made from: a LiDAR, a depth camera, or both, of which "
-        "the LiDAR alone guards the motion");
+    visit("source", self.source, OneOf{{"lidar", "depth", "fused", "rgb"}},
+          "what local occupancy is made from: a LiDAR, a depth camera, both (fused), or a colour "
+          "camera and a network (rgb); of fused and rgb a LiDAR alone guards the motion");
     visit("accumulate", self.accumulate, OneOf{{"none", "panorama", "rolling"}},
           "none: each look by itself; panorama: four looks, a quarter turn apart, are one (CMN); "
           "rolling: what was seen lately is kept (CMP eq. 1 to 3)");
     visit.group("depth", self.depth);
+    visit.group("rgb", self.rgb);
     visit.group("panorama", self.panorama);
     visit.group("rolling", self.rolling);
     visit.group("local_occupancy", self.local_occupancy);
@@ -56,6 +72,7 @@ struct SensorData {
   const RangeScan* scan = nullptr;
   const DepthImage* image = nullptr;
   const PointCloudView* cloud = nullptr;
+  const ColorImage* color = nullptr;
 };
 
 /// What is made of them.
@@ -74,8 +91,10 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b);
 
 class Perception {
  public:
-  /// Throws std::invalid_argument when `params.accumulate` is unknown.
-  explicit Perception(const PerceptionParams& params);
+  /// `predictor`: of the source "rgb", shared with nobody at the same time. Throws
+  /// std::invalid_argument when `params.accumulate` is unknown or the predictor is missing.
+  explicit Perception(const PerceptionParams& params,
+                      std::shared_ptr<OccupancyPredictor> predictor = nullptr);
 
   /// `data` was measured with the robot at `T_odom_robot`, which `accumulate: none` makes no use
   /// of.
@@ -96,9 +115,13 @@ class Perception {
     std::unique_ptr<Accumulator> accumulator;
   };
   RangeScan depth_scan(const SensorData& data);
+  void look_in_color(const ColorImage& image, const Pose2& T_odom_robot, bool with_local_map,
+                     Percept& percept);
 
   PerceptionParams params_;
   DepthProjector depth_;
+  std::shared_ptr<OccupancyPredictor> predictor_;
+  ColorLooks color_looks_;
   View seen_;
   View local_map_;
 };
