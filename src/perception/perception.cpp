@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/perception.hpp"
 
-#include "coarse_map_nav/perception/predicted_grid.hpp"
-
 #include <cassert>
 #include <cstddef>
 #include <optional>
@@ -56,7 +54,7 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
 }
 
 Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
-    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(params)} {}
+    : projector{grid}, camera_projector{grid}, accumulator{make_accumulator(params)} {}
 
 Perception::Perception(const PerceptionParams& params,
                        std::shared_ptr<OccupancyPredictor> predictor)
@@ -77,51 +75,45 @@ RangeScan Perception::depth_scan(const SensorData& data) {
   return data.image != nullptr ? depth_.scan(*data.image) : depth_.scan(*data.cloud);
 }
 
+RangeScan Perception::camera_scan(const SensorData& data, const Pose2& T_odom_robot) {
+  if (!params_.uses_color()) {
+    return params_.uses_depth() ? depth_scan(data) : RangeScan{};
+  }
+  assert(data.color != nullptr);
+  const ColorPanorama panorama = color_looks_.add(*data.color, T_odom_robot);
+  if (color_looks_.is_complete()) {
+    return predicted_scan(predictor_->predict(panorama), panorama, params_.rgb);
+  }
+  RangeScan nothing;  // nobody concludes anything from a part: not worth a prediction
+  nothing.stamp_s = panorama.stamp_s;
+  nothing.source = ObservationSource::kRgb;
+  return nothing;
+}
+
 Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map) {
   assert(data.scan != nullptr || !params_.uses_scan());
-  assert(data.color != nullptr || !params_.uses_color());
-  const RangeScan of_depth = params_.uses_depth() ? depth_scan(data) : RangeScan{};
-  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
-  const bool is_fused = params_.uses_scan() && params_.uses_depth();
-  const auto joined = [&](View& view, LocalOccupancy&& of_guard) {
-    return is_fused ? nearest_of(of_guard, view.depth_projector.project(of_depth))
-                    : std::move(of_guard);
+  const RangeScan of_camera = camera_scan(data, T_odom_robot);
+  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_camera;
+  const auto seen_with = [&](View& view, LocalOccupancy&& of_guard) {
+    if (params_.uses_color()) {
+      return view.camera_projector.project(of_camera);
+    }
+    return params_.uses_scan() && params_.uses_depth()
+               ? nearest_of(of_guard, view.camera_projector.project(of_camera))
+               : std::move(of_guard);
   };
 
   Percept percept;
   LocalOccupancy seen = seen_.projector.project(guard, &percept.beams);
   percept.clear_ahead_m = cmn::clear_ahead_m(guard, seen, params_.guard);
-  if (params_.uses_color()) {
-    look_in_color(*data.color, T_odom_robot, with_local_map, percept);
-    return percept;
-  }
-  percept.seen = seen_.accumulator->fuse(joined(seen_, std::move(seen)), T_odom_robot);
-  percept.is_complete = seen_.accumulator->is_complete();
+  percept.seen = seen_.accumulator->fuse(seen_with(seen_, std::move(seen)), T_odom_robot);
+  percept.is_complete =
+      params_.uses_color() ? color_looks_.is_complete() : seen_.accumulator->is_complete();
   if (with_local_map) {
     percept.local_map = local_map_.accumulator->fuse(
-        joined(local_map_, local_map_.projector.project(guard)), T_odom_robot);
+        seen_with(local_map_, local_map_.projector.project(guard)), T_odom_robot);
   }
   return percept;
-}
-
-void Perception::look_in_color(const ColorImage& image, const Pose2& T_odom_robot,
-                               bool with_local_map, Percept& percept) {
-  const ColorPanorama panorama = color_looks_.add(image, T_odom_robot);
-  percept.is_complete = color_looks_.is_complete();
-  if (!percept.is_complete) {  // nobody concludes anything from it: not worth a prediction
-    percept.seen = laid_on_grid({}, params_.local_occupancy, params_.rgb.least_in_sight);
-    percept.seen.stamp_s = image.stamp_s;
-    return;
-  }
-  const PredictedOccupancy predicted = predictor_->predict(panorama);
-  const auto fused = [&](View& view, const ProjectionParams& grid) {
-    return view.accumulator->fuse(laid_on_grid(predicted, grid, params_.rgb.least_in_sight),
-                                  T_odom_robot);
-  };
-  percept.seen = fused(seen_, params_.local_occupancy);
-  if (with_local_map) {
-    percept.local_map = fused(local_map_, params_.local_map);
-  }
 }
 
 double Perception::clear_ahead_m(const SensorData& data) {

@@ -244,7 +244,7 @@ TEST_F(RgbTest, APanoramaIsPredictedFromOnceTheRobotHasTurnedRound) {
   }
   look_until(kCamera, "bgr8", {0.0, 0.0, 2.0 * kPi},
              [](const auto& local) { return local.partial == 0; });
-  EXPECT_GT(seen_share(local_.back()), 0.0);
+  EXPECT_GT(seen_share(local_.back()), 0.1);
   ASSERT_TRUE(wait_for([this] { return !panoramas_.empty(); })) << node_->output();
   EXPECT_EQ(panoramas_.back().width, 4U * 160U);
 }

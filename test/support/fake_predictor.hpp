@@ -36,8 +36,8 @@ class FakePredictor : public OccupancyPredictor {
         const auto view = static_cast<std::size_t>((nearest_quarter(std::atan2(y, x)) + 4) % 4);
         const int red = panorama.views[view].at<cv::Vec3b>(kViewSide / 2, kViewSide / 2)[2];
         const std::size_t i = square.index_of(ix, iy);
-        square.confidence[i] = red > 0 ? 0.9F : 0.1F;
-        square.occupancy[i] = std::hypot(x, y) < 0.1 * red ? 0.2F : 0.8F;
+        square.confidence[i] = red > 0 ? 0.99F : 0.01F;
+        square.occupancy[i] = std::hypot(x, y) < 0.1 * red ? 0.01F : 0.99F;
       }
     }
     return square;

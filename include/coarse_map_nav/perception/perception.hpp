@@ -15,6 +15,7 @@
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
 #include "coarse_map_nav/perception/occupancy_predictor.hpp"
 #include "coarse_map_nav/perception/panorama.hpp"
+#include "coarse_map_nav/perception/predicted_scan.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/perception/rolling_map.hpp"
 
@@ -22,18 +23,6 @@
 #include <string>
 
 namespace cmn {
-
-struct RgbParams {
-  std::string model;
-  double least_in_sight = 0.5;
-  template <class Self, class Visitor>
-  static void visit_params(Self& self, Visitor&& visit) {
-    visit("model", self.model, Anything{},
-          "rgb: file of the network (TorchScript), see seeing-in-colour.md");
-    visit("least_in_sight", self.least_in_sight, Between{0.0, 1.0},
-          "[-] rgb: a cell is seen when the network gives it at least this chance to be in sight");
-  }
-};
 
 struct PerceptionParams {
   std::string source = "lidar";
@@ -110,13 +99,13 @@ class Perception {
   /// A grid about the robot and what is made of looks on it.
   struct View {
     View(const PerceptionParams& params, const ProjectionParams& grid);
-    RangeProjector projector;        ///< of the sensor that guards
-    RangeProjector depth_projector;  ///< of the camera beside a LiDAR
+    RangeProjector projector;         ///< of the sensor that guards
+    RangeProjector camera_projector;  ///< of the camera beside a LiDAR
     std::unique_ptr<Accumulator> accumulator;
   };
   RangeScan depth_scan(const SensorData& data);
-  void look_in_color(const ColorImage& image, const Pose2& T_odom_robot, bool with_local_map,
-                     Percept& percept);
+  /// Of the camera beside the LiDAR: none while a panorama is incomplete.
+  RangeScan camera_scan(const SensorData& data, const Pose2& T_odom_robot);
 
   PerceptionParams params_;
   DepthProjector depth_;

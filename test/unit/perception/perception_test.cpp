@@ -144,10 +144,10 @@ TEST(Perception, RgbTurnsRoundPredictsOnceItIsRoundAndTheLidarGuards) {
   EXPECT_EQ(predictor->predictions, 1);
   EXPECT_EQ(percept.seen.source, ObservationSource::kRgb);
   for (const LocalOccupancy& seen : {percept.seen, percept.local_map}) {
-    EXPECT_EQ(occupancy_at(seen, -0.45, 0.05), 0.2F);
-    EXPECT_EQ(occupancy_at(seen, 0.05, 1.05), 0.8F);
-    EXPECT_EQ(confidence_at(seen, 1.05, 0.05), 0.9F);
-    EXPECT_EQ(confidence_at(seen, 2.05, 0.05), 0.0F) << "farther than the network looks";
+    EXPECT_EQ(occupancy_at(seen, -0.45, 0.05), 0.0F);
+    EXPECT_EQ(occupancy_at(seen, 0.05, 0.85), 1.0F);
+    EXPECT_EQ(confidence_at(seen, 0.85, 0.05), 1.0F);
+    EXPECT_EQ(confidence_at(seen, 1.25, 0.05), 0.0F) << "behind it";
   }
 }
 
@@ -161,8 +161,8 @@ TEST(Perception, RgbWithAMemoryKeepsWhatItSawBeforeItTurned) {
   EXPECT_TRUE(percept.is_complete);
   EXPECT_EQ(confidence_at(percept.seen, 0.05, 0.95), 0.0F);
   percept = perception.look(data, {0.0, 0.0, kPi / 2.0}, false);
-  EXPECT_NEAR(occupancy_at(percept.seen, 0.95, 0.05), 0.2F, 1e-6) << "ahead";
-  EXPECT_NEAR(occupancy_at(percept.seen, 0.05, -0.95), 0.2F, 1e-6) << "seen before";
+  EXPECT_EQ(occupancy_at(percept.seen, 0.95, 0.05), 0.0F) << "ahead";
+  EXPECT_EQ(occupancy_at(percept.seen, 0.05, -0.95), 0.0F) << "seen before";
   EXPECT_EQ(confidence_at(percept.seen, -0.95, 0.05), 0.0F);
   perception.forget();
   percept = perception.look(data, {}, false);
