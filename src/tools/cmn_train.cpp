@@ -60,6 +60,7 @@ int train(const po::variables_map& given) {
   job.out = cmn::needed(given, "out");
   job.seed = given["seed"].as<std::uint64_t>();
   job.threads = given["threads"].as<int>();
+  job.start_from = given.count("start-from") != 0 ? given["start-from"].as<std::string>() : "";
   job.params = cmn::params_of<cmn::TrainingParams>(given);
   if (job.threads < 1) {
     throw std::runtime_error("--threads is not 1 or more");
@@ -196,6 +197,8 @@ int run(int argc, char** argv) {
   add_option("data", po::value<std::string>(), "folder of examples");
   add_option("out", po::value<std::string>(), "folder of the training");
   add_option("params", po::value<std::string>(), "YAML file of parameters");
+  add_option("start-from", po::value<std::string>(),
+             "checkpoint.pt of another training, whose weights are the first ones");
   add_option("seed", po::value<std::uint64_t>()->default_value(1),
              "of weights and order; with --evaluate, of the examples' choice");
   add_option("threads", po::value<int>()->default_value(1),
