@@ -61,7 +61,7 @@ class SimulatorNode {
         robot_{world, params.own.simulation, mounts, start_of(params.own, world), params.own.seed},
         simulator_{robot_.simulator()} {
     if (robot_.cameras() != nullptr) {
-      cameras_.emplace(nh_, params.own.sensor_frames);
+      cameras_.emplace(nh_, params.own.sensor_frames, params.own.simulation.color.camera());
     } else {
       ROS_WARN_STREAM("there are no cameras: " << robot_.why_no_cameras());
     }

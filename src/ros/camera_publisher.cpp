@@ -9,14 +9,16 @@
 
 namespace cmn {
 
-CameraPublisher::CameraPublisher(ros::NodeHandle& nh, const SensorFrameParams& frames)
-    : frames_{frames} {
+CameraPublisher::CameraPublisher(ros::NodeHandle& nh, const SensorFrameParams& frames,
+                                 const CameraModel& color)
+    : frames_{frames}, color_{color} {
   if (!frames.depth.empty()) {
     info_pub_ = nh.advertise<sensor_msgs::CameraInfo>("camera_info", 2);
     depth_pub_ = nh.advertise<sensor_msgs::Image>("depth/image", 2);
     cloud_pub_ = nh.advertise<sensor_msgs::PointCloud2>("points", 2);
   }
   if (!frames.color.empty()) {
+    image_info_pub_ = nh.advertise<sensor_msgs::CameraInfo>("image/camera_info", 2);
     image_pub_ = nh.advertise<sensor_msgs::Image>("image", 2);
   }
 }
@@ -26,8 +28,9 @@ void CameraPublisher::publish(SceneSensors& sensors, const Pose2& T_world_robot,
   std_msgs::Header header;
   header.stamp = stamp;
   // First, so that it is there when the depth of the same moment is looked at.
-  if (image_pub_.getNumSubscribers() > 0) {
+  if (image_pub_.getNumSubscribers() > 0 || image_info_pub_.getNumSubscribers() > 0) {
     header.frame_id = frames_.color;
+    image_info_pub_.publish(message_of(color_, header));
     image_pub_.publish(
         cv_bridge::CvImage{header, sensor_msgs::image_encodings::BGR8, sensors.image(T_world_robot)}
             .toImageMsg());

@@ -185,6 +185,7 @@ TEST_F(CameraTest, ImageCloudAndColourAreOfOneMoment) {
   Inbox<sensor_msgs::CameraInfo> infos{"camera_info"};
   Inbox<sensor_msgs::PointCloud2> clouds{"points"};
   Inbox<sensor_msgs::Image> images{"image"};
+  Inbox<sensor_msgs::CameraInfo> image_infos{"image/camera_info"};
   const auto at = [](const auto& inbox, const ros::Time& stamp) {
     const auto found = std::find_if(inbox.all().begin(), inbox.all().end(),
                                     [&](const auto& m) { return m->header.stamp == stamp; });
@@ -195,7 +196,7 @@ TEST_F(CameraTest, ImageCloudAndColourAreOfOneMoment) {
     for (const auto& cloud : clouds.all()) {
       const ros::Time stamp = cloud->header.stamp;
       if (at(depths, stamp) != nullptr && at(infos, stamp) != nullptr &&
-          at(images, stamp) != nullptr) {
+          at(images, stamp) != nullptr && at(image_infos, stamp) != nullptr) {
         image = at(depths, stamp);
         return true;
       }
@@ -207,6 +208,7 @@ TEST_F(CameraTest, ImageCloudAndColourAreOfOneMoment) {
   expect_frame(clouds, "camera_depth_optical_frame");
   expect_frame(images, "camera_color_optical_frame");
   EXPECT_EQ(images.back().encoding, "bgr8");
+  EXPECT_EQ(images.back().width, image_infos.back().width);
   std::string why;
   const auto camera = camera_of(infos.back(), why);
   ASSERT_TRUE(camera) << why;

@@ -11,20 +11,22 @@
 
 namespace cmn {
 
-/// `depth/image`, `camera_info` and `points` of the depth camera, `image` of the colour camera: all
-/// of one moment. Only what somebody listens to is made.
+/// `depth/image`, `camera_info` and `points` of the depth camera, `image` and `image/camera_info`
+/// of the colour camera: all of one moment. Only what somebody listens to is made.
 class CameraPublisher {
  public:
   /// A camera whose frame is empty is none: its topics are not advertised.
-  CameraPublisher(ros::NodeHandle& nh, const SensorFrameParams& frames);
+  CameraPublisher(ros::NodeHandle& nh, const SensorFrameParams& frames, const CameraModel& color);
 
   void publish(SceneSensors& sensors, const Pose2& T_world_robot, const ros::Time& stamp);
 
  private:
   SensorFrameParams frames_;
+  CameraModel color_;
   ros::Publisher info_pub_;
   ros::Publisher depth_pub_;
   ros::Publisher cloud_pub_;
+  ros::Publisher image_info_pub_;
   ros::Publisher image_pub_;
 };
 

@@ -54,7 +54,7 @@ struct SimulatorNodeParams {
     visit("odometry_rate", self.odometry_rate, Between{5.0, 500.0}, "[Hz] odom, TF and /clock");
     visit("scan_rate", self.scan_rate, Between{0.5, 100.0}, "[Hz] scan");
     visit("camera_rate", self.camera_rate, Between{0.5, 100.0},
-          "[Hz] depth/image, camera_info, points, image, while somebody listens");
+          "[Hz] depth/image, points, image and their camera_info, while somebody listens");
     visit("command_timeout_s", self.command_timeout_s, Between{0.05, 10.0},
           "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
     SensorFrameParams::visit_params(self.sensor_frames, visit);
