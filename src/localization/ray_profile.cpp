@@ -10,6 +10,9 @@ namespace cmn {
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m) {
   RayProfile profile;
   const double step = 0.5 * seen.resolution;
+  // The robot stands on the cells that meet in the middle. Cameras that see less than a quarter
+  // leave all four of them out, at any heading, and with them the way to what they do see.
+  const double under_robot = 1.5 * seen.resolution;
   const double reach = std::min(reach_m, 0.5 * seen.side_m() - seen.resolution);
   for (int b = 0; b < kBearings; ++b) {
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b) - yaw_rad);
@@ -21,6 +24,9 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
           static_cast<int>(std::floor(range * ahead.y / seen.resolution + 0.5 * seen.size));
       const std::size_t i = seen.index_of(ix, iy);
       if (seen.confidence[i] <= 0.0F) {
+        if (range <= under_robot) {
+          continue;
+        }
         break;
       }
       ray.range_m = range;
@@ -28,6 +34,9 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
         ray.is_hit = true;
         break;
       }
+    }
+    if (!ray.is_hit && ray.range_m <= under_robot) {
+      ray.range_m = 0.0;
     }
   }
   return profile;
