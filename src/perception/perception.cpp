@@ -19,17 +19,18 @@ class SingleLooks : public Accumulator {
 
 }  // namespace
 
-std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params) {
-  if (params.accumulate == "none") {
+std::unique_ptr<Accumulator> make_accumulator(const std::string& word,
+                                              const PerceptionParams& params) {
+  if (word == "none") {
     return std::make_unique<SingleLooks>();
   }
-  if (params.accumulate == "panorama") {
+  if (word == "panorama") {
     return std::make_unique<Panorama>(params.panorama);
   }
-  if (params.accumulate == "rolling") {
+  if (word == "rolling") {
     return std::make_unique<RollingMap>(params.rolling);
   }
-  throw std::invalid_argument("perception/accumulate \"" + params.accumulate +
+  throw std::invalid_argument("perception/accumulate \"" + word +
                               "\" is none of none, panorama, rolling");
 }
 
@@ -50,14 +51,17 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
   return all;
 }
 
-Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
-    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(params)} {}
+Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid,
+                       const std::string& accumulate)
+    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(accumulate, params)} {}
 
 Perception::Perception(const PerceptionParams& params)
     : params_{params},
       depth_{params.depth},
-      seen_{params, params.local_occupancy},
-      local_map_{params, params.local_map} {}
+      seen_{params, params.local_occupancy, params.accumulate},
+      local_map_{params, params.local_map,
+                 params.accumulate_local_map == "same" ? params.accumulate
+                                                       : params.accumulate_local_map} {}
 
 RangeScan Perception::depth_scan(const SensorData& data) {
   assert(data.image != nullptr || data.cloud != nullptr);
