@@ -19,20 +19,21 @@ class SingleLooks : public Accumulator {
 
 }  // namespace
 
-std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params) {
-  if (params.accumulate == "none") {
+std::unique_ptr<Accumulator> make_accumulator(const std::string& word,
+                                              const PerceptionParams& params) {
+  if (word == "none") {
     return std::make_unique<SingleLooks>();
   }
-  if (params.accumulate == "panorama") {
+  if (word == "panorama") {
     if (params.uses_color()) {  // what is collected are the images
       return std::make_unique<SingleLooks>();
     }
     return std::make_unique<Panorama>(params.panorama);
   }
-  if (params.accumulate == "rolling") {
+  if (word == "rolling") {
     return std::make_unique<RollingMap>(params.rolling);
   }
-  throw std::invalid_argument("perception/accumulate \"" + params.accumulate +
+  throw std::invalid_argument("perception/accumulate \"" + word +
                               "\" is none of none, panorama, rolling");
 }
 
@@ -53,8 +54,9 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
   return all;
 }
 
-Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
-    : projector{grid}, camera_projector{grid}, accumulator{make_accumulator(params)} {}
+Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid,
+                       const std::string& accumulate)
+    : projector{grid}, camera_projector{grid}, accumulator{make_accumulator(accumulate, params)} {}
 
 Perception::Perception(const PerceptionParams& params,
                        std::shared_ptr<OccupancyPredictor> predictor)
@@ -62,8 +64,10 @@ Perception::Perception(const PerceptionParams& params,
       depth_{params.depth},
       predictor_{std::move(predictor)},
       color_looks_{params.accumulate == "panorama"},
-      seen_{params, params.local_occupancy},
-      local_map_{params, params.local_map} {
+      seen_{params, params.local_occupancy, params.accumulate},
+      local_map_{
+          params, params.local_map,
+          params.accumulate_local_map == "same" ? params.accumulate : params.accumulate_local_map} {
   if (params.uses_color() && predictor_ == nullptr) {
     throw std::invalid_argument(
         "perception/source is rgb, but there is no network to predict with");

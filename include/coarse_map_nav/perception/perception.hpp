@@ -27,6 +27,7 @@ namespace cmn {
 struct PerceptionParams {
   std::string source = "lidar";
   std::string accumulate = "none";
+  std::string accumulate_local_map = "same";
   DepthParams depth;
   RgbParams rgb;
   PanoramaParams panorama;
@@ -45,6 +46,9 @@ struct PerceptionParams {
     visit("accumulate", self.accumulate, OneOf{{"none", "panorama", "rolling"}},
           "none: each look by itself; panorama: four looks, a quarter turn apart, are one (CMN); "
           "rolling: what was seen lately is kept (CMP eq. 1 to 3)");
+    visit("accumulate_local_map", self.accumulate_local_map, OneOf{{"same", "rolling"}},
+          "likewise of what the planner is told; same: as accumulate says; rolling: for a camera "
+          "that does not see what is near, and has seen it before");
     visit.group("depth", self.depth);
     visit.group("rgb", self.rgb);
     visit.group("panorama", self.panorama);
@@ -81,7 +85,7 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b);
 class Perception {
  public:
   /// `predictor`: of the source "rgb", shared with nobody at the same time. Throws
-  /// std::invalid_argument when `params.accumulate` is unknown or the predictor is missing.
+  /// std::invalid_argument when a word of `params` is unknown or the predictor is missing.
   explicit Perception(const PerceptionParams& params,
                       std::shared_ptr<OccupancyPredictor> predictor = nullptr);
 
@@ -98,7 +102,8 @@ class Perception {
  private:
   /// A grid about the robot and what is made of looks on it.
   struct View {
-    View(const PerceptionParams& params, const ProjectionParams& grid);
+    View(const PerceptionParams& params, const ProjectionParams& grid,
+         const std::string& accumulate);
     RangeProjector projector;         ///< of the sensor that guards
     RangeProjector camera_projector;  ///< of the camera beside a LiDAR
     std::unique_ptr<Accumulator> accumulator;

@@ -117,6 +117,23 @@ TEST(Perception, APanoramaIsPartialUntilAllFourLooksAreThere) {
   EXPECT_FALSE(perception.look({nullptr, &image}, {}, true).is_complete);
 }
 
+TEST(Perception, ThePlannerMayRememberWhatThePanoramaOfTheNextStopLacks) {
+  PerceptionParams params = params_of("depth", "panorama");
+  const DepthImage table = depth_of(kTable);
+  DepthImage nothing = table;
+  nothing.depth_m = cv::Mat{table.depth_m.size(), CV_32FC1, cv::Scalar{0.0}};
+  for (const std::string word : {"same", "rolling"}) {
+    SCOPED_TRACE(word);
+    params.accumulate_local_map = word;
+    Perception perception{params};
+    const Percept there = perception.look({nullptr, &table}, {}, true);
+    ASSERT_EQ(occupancy_at(there.local_map, 1.05, 0.0), 1.0F);
+    const Percept next = perception.look({nullptr, &nothing}, {0.2, 0.0, 0.0}, true);
+    EXPECT_EQ(confidence_at(next.seen, 0.85, 0.0), 0.0F);
+    EXPECT_EQ(confidence_at(next.local_map, 0.85, 0.0) > 0.0F, word == "rolling");
+  }
+}
+
 TEST(Perception, AnUnknownAccumulatorIsRefused) {
   EXPECT_THROW(Perception{params_of("lidar", "hoarding")}, std::invalid_argument);
 }
