@@ -1,9 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse_map_nav/ros/camera_conversions.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,10 +13,7 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud2.h>
 
 namespace cmn {
 namespace {
@@ -33,8 +28,6 @@ TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
                                                         "\nresolution: 0.05\norigin: [0, 0, 0]\n"
                                                         "negate: 0\noccupied_thresh: 0.65\n"
                                                         "free_thresh: 0.196\n");
-  const std::string hollow =
-      file_with("hollow.world", "<sdf version='1.6'><world name='w'></world></sdf>");
   struct Case {
     std::vector<std::string> arguments;
     std::string says;
@@ -43,8 +36,6 @@ TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
       {{}, "world: name the world"},
       {{"_world:=/nowhere/world.yaml"}, "/nowhere/world.yaml"},
       {{"_world:=" + solid}, solid},
-      {{"_world:=/nowhere/room.world"}, "/nowhere/room.world: no such file"},
-      {{"_world:=" + hollow}, hollow + ": nothing in it has a surface"},
       {{"_world:=house:x"}, "house:x: a house has a number"},
       {{kWorld, kBase, "_start_x:=0.01", "_start_y:=0.01"}, "obstacle"},
       {{kWorld, kBase, "_start_x:=-50.0", "_start_y:=2.0"}, "obstacle"},
@@ -156,74 +147,6 @@ TEST_F(RunningSimulator, CommandsThatAreNoNumbersAreIgnored) {
     command(0.2);
     return speed_mps() > 0.1;
   }));
-}
-
-/// In a furnished house.
-class CameraTest : public testing::Test {
- protected:
-  template <class Message>
-  void expect_frame(const Inbox<Message>& inbox, const std::string& frame) {
-    ASSERT_FALSE(inbox.empty()) << node_.output();
-    EXPECT_EQ(inbox.back().header.frame_id, frame);
-  }
-
-  Inbox<rosgraph_msgs::Clock> clocks_{"/clock"};
-  NodeProcess node_{"simulator", {"_world:=house:2", kBase, "_speed:=5.0", "_seed:=3"}};
-};
-
-TEST_F(CameraTest, NothingIsMadeThatNobodyListensTo) {
-  ASSERT_TRUE(wait_for([this] { return !clocks_.empty() && clocks_.back().clock.toSec() > 3.0; }))
-      << node_.output();
-  Inbox<sensor_msgs::Image> depths{"depth/image"};
-  ASSERT_TRUE(wait_for([&] { return depths.size() >= 3; })) << node_.output();
-  EXPECT_EQ(depths.all().front()->header.seq, 0U) << "none was sent before";
-  EXPECT_GT(depths.all().front()->header.stamp, ros::Time{2.5});
-}
-
-TEST_F(CameraTest, ImageCloudAndColourAreOfOneMoment) {
-  Inbox<sensor_msgs::Image> depths{"depth/image"};
-  Inbox<sensor_msgs::CameraInfo> infos{"camera_info"};
-  Inbox<sensor_msgs::PointCloud2> clouds{"points"};
-  Inbox<sensor_msgs::Image> images{"image"};
-  Inbox<sensor_msgs::CameraInfo> image_infos{"image/camera_info"};
-  const auto at = [](const auto& inbox, const ros::Time& stamp) {
-    const auto found = std::find_if(inbox.all().begin(), inbox.all().end(),
-                                    [&](const auto& m) { return m->header.stamp == stamp; });
-    return found == inbox.all().end() ? nullptr : found->get();
-  };
-  const sensor_msgs::Image* image = nullptr;
-  ASSERT_TRUE(wait_for([&] {
-    for (const auto& cloud : clouds.all()) {
-      const ros::Time stamp = cloud->header.stamp;
-      if (at(depths, stamp) != nullptr && at(infos, stamp) != nullptr &&
-          at(images, stamp) != nullptr && at(image_infos, stamp) != nullptr) {
-        image = at(depths, stamp);
-        return true;
-      }
-    }
-    return false;
-  })) << node_.output();
-  expect_frame(depths, "camera_depth_optical_frame");
-  expect_frame(infos, "camera_depth_optical_frame");
-  expect_frame(clouds, "camera_depth_optical_frame");
-  expect_frame(images, "camera_color_optical_frame");
-  EXPECT_EQ(images.back().encoding, "bgr8");
-  EXPECT_EQ(images.back().width, image_infos.back().width);
-  std::string why;
-  const auto camera = camera_of(infos.back(), why);
-  ASSERT_TRUE(camera) << why;
-  const auto depth = depth_of(*image, *camera, Eigen::Isometry3d::Identity(), why);
-  ASSERT_TRUE(depth) << why;
-  const auto cloud = view_of(*at(clouds, image->header.stamp), Eigen::Isometry3d::Identity(), why);
-  ASSERT_TRUE(cloud) << why;
-  int readings = 0;
-  for (std::size_t i = 0; i < depth->depth_m.total(); ++i) {
-    const float z = depth->depth_m.ptr<float>()[i];
-    readings += z > 0.0F;
-    const float of_cloud = coordinate_of(cloud->data + i * cloud->point_step, cloud->z);
-    ASSERT_TRUE(std::isnan(z) ? std::isnan(of_cloud) : of_cloud == z);
-  }
-  EXPECT_GT(readings, static_cast<int>(depth->depth_m.total()) / 4);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "coarse_map_nav/evaluation/method.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,7 +51,8 @@ TEST(Task, AnUnknownOneIsRefusedWithAListOfAll) {
 TEST(Task, OnlyThePapersOwnKnowsTheHeading) {
   for (const char* name : {"CG", "CI", "HD", "CL", "CD", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).knows_heading, find_task(name).has_paper_setting);
-    EXPECT_EQ(find_task(name).knows_heading, std::string{name} == "CG");
+    const std::set<std::string> papers_own{"CG", "CI", "HD"};
+    EXPECT_EQ(find_task(name).knows_heading, papers_own.count(name) == 1);
   }
 }
 
