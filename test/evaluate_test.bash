@@ -156,6 +156,10 @@ home=(--world "$worlds/home.yaml" --out "$out/refused")
 refused "at least one --world" --out "$out/refused"
 refused "house:4-3 are no houses" --world house:4-3 --out "$out/refused"
 refused "furnished:x is no house" --world furnished:x --out "$out/refused"
+if [[ -d $out/furnished_two ]]; then
+  refused "house:7 has heights for depth_rolling and none for rolling in CF: furnished:7" --world house:7 --task CF \
+    --method rolling,depth_rolling --out "$out/refused"
+fi
 refused "absent.urdf" "${home[@]}" --robot "$out/absent.urdf"
 refused "house:x is no house" --world house:x --out "$out/refused"
 refused "nowhere.yaml" --world "$out/nowhere.yaml" --out "$out/refused"
