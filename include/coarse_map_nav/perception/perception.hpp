@@ -81,6 +81,7 @@ class Perception {
   /// Throws std::invalid_argument when a word of `params` is unknown.
   explicit Perception(const PerceptionParams& params);
 
+  /// Of both sensors, ground that the LiDAR alone sees to be free is presumed to be (kPresumed).
   /// `data` was measured with the robot at `T_odom_robot`, which `accumulate: none` makes no use
   /// of.
   Percept look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map);
