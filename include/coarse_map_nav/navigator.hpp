@@ -36,6 +36,8 @@ class Navigator {
   const LocalOccupancy& local_map() const { return percept_.local_map; }
   /// What the obstacle guard allows, see clear_ahead_m().
   double clear_ahead_m() const { return percept_.clear_ahead_m; }
+  /// The same of what is measured now; folds nothing in.
+  double clear_ahead_m(const SensorData& data) { return perception_.clear_ahead_m(data); }
   bool is_blocked_ahead() const { return percept_.clear_ahead_m < params_.planning.step_m; }
 
   /// `data` was measured at `T_odom_robot`, after the last action had ended with `last_outcome`.

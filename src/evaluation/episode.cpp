@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/episode.hpp"
 
+#include "coarse_map_nav/evaluation/looks.hpp"
 #include "coarse_map_nav/motion/motion_controller.hpp"
-#include "coarse_map_nav/perception/obstacle_guard.hpp"
+
+#include <functional>
+#include <optional>
 
 namespace cmn {
 namespace {
@@ -11,16 +14,17 @@ namespace {
 constexpr double kOdometryPeriod_s = 0.02;
 constexpr int kScanPeriod = 5;  ///< in odometry periods
 
+/// What the robot sees at this instant; valid until the next.
+using Look = std::function<SensorData()>;
+
 /// Carries one action out, the guard watching at scan rate as on the robot.
-MotionOutcome carry_out(const Action& action, std::uint32_t id, const ProjectionParams& projection,
-                        const ObstacleGuardParams& guard, double clear_m, Simulator& simulator,
-                        MotionController& controller) {
-  RangeProjector projector{projection};
+MotionOutcome carry_out(const Action& action, std::uint32_t id, const Look& look,
+                        Navigator& navigator, Simulator& simulator, MotionController& controller) {
+  double clear_m = navigator.clear_ahead_m();
   controller.start(id, action, simulator.odometry());
   for (int tick = 1;; ++tick) {
     if (tick % kScanPeriod == 0) {
-      const RangeScan scan = simulator.scan();
-      clear_m = clear_ahead_m(scan, projector.project(scan), guard);
+      clear_m = navigator.clear_ahead_m(look());
     }
     const MotionStep step = controller.step(simulator.odometry(), clear_m, simulator.bumped());
     if (step.result) {
@@ -34,8 +38,20 @@ MotionOutcome carry_out(const Action& action, std::uint32_t id, const Projection
 
 EpisodeResult run_episode(const World& world, const SimulationParams& simulation,
                           const CoarseMap& map, const NavigatorParams& params,
-                          const EpisodeTask& task, std::uint32_t seed) {
+                          const EpisodeTask& task, std::uint32_t seed, SceneSensors* sensors) {
   Simulator simulator{world, simulation, task.T_world_start, seed};
+  RangeScan scan;
+  std::optional<Looks> looks;
+  if (sensors != nullptr) {
+    looks.emplace(*sensors, params.perception);
+  }
+  const Look look = [&] {
+    if (looks) {
+      return looks->at(simulator.truth(), simulator.time_s());
+    }
+    scan = simulator.scan();
+    return SensorData{&scan};
+  };
   Navigator navigator{map, params};
   MotionController controller{params.motion};
   EpisodeResult result;
@@ -47,8 +63,7 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
   for (std::uint32_t id = 1;; ++id) {
     EpisodeStep step;
     step.T_world_robot = simulator.truth();
-    step.decision =
-        navigator.step(simulator.scan(), simulator.odometry().T_odom_robot, last_outcome);
+    step.decision = navigator.step(look(), simulator.odometry().T_odom_robot, last_outcome);
     const Localization at = navigator.localizer().localization();
     step.estimate = at.estimate;
     step.confidence = at.confidence;
@@ -56,9 +71,7 @@ EpisodeResult run_episode(const World& world, const SimulationParams& simulation
     const bool is_over = step.decision.state == NavigationState::kReached ||
                          step.decision.state == NavigationState::kFailed;
     if (!is_over) {
-      step.outcome =
-          carry_out(step.decision.action, id, params.perception.local_occupancy,
-                    params.perception.guard, navigator.clear_ahead_m(), simulator, controller);
+      step.outcome = carry_out(step.decision.action, id, look, navigator, simulator, controller);
       last_outcome = step.outcome;
     }
     result.steps.push_back(step);

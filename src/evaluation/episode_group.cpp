@@ -25,7 +25,7 @@ constexpr std::array<Name, 13> kTasks{{
     {"HD", "hand-drawn map, four RGB images, known yaw"},
     {"CL", "coarse-grid map, LiDAR 360 deg, unknown yaw"},
     {"CD", "coarse-grid map, depth panorama, unknown yaw"},
-    {"CF", "coarse-grid map, looking forward only, unknown yaw"},
+    {"CF", "coarse-grid map, sensors that look forward only, unknown yaw"},
     {"HL", "hand-drawn map, LiDAR 360 deg, unknown yaw"},
     {"WL", "walls-only map, LiDAR 360 deg, unknown yaw"},
     {"TL", "coarse map turned by 7 deg, LiDAR 360 deg, unknown yaw"},
@@ -54,6 +54,7 @@ std::size_t rank_in(const std::array<Name, kCount>& names, const std::string& na
 }
 
 constexpr const char* kHouses = "houses";
+constexpr const char* kFurnished = "furnished houses";
 
 template <class Condition>
 std::vector<EpisodeRow> where(const std::vector<EpisodeRow>& rows, Condition&& condition) {
@@ -108,14 +109,17 @@ std::vector<EpisodeRow> played(const std::vector<EpisodeRow>& rows) {
 }
 
 std::string building_of(const std::string& world) {
-  return world.rfind("house:", 0) == 0 ? kHouses : world;
+  if (world.rfind("house:", 0) == 0) {
+    return kHouses;
+  }
+  return world.rfind("furnished:", 0) == 0 ? kFurnished : world;
 }
 
 std::vector<std::string> buildings_of(const std::vector<EpisodeRow>& rows) {
   std::set<std::pair<bool, std::string>> ranked;
   for (const EpisodeRow& row : rows) {
     const std::string building = building_of(row.key.world);
-    ranked.emplace(building != kHouses, building);
+    ranked.emplace(building != kHouses && building != kFurnished, building);
   }
   std::vector<std::string> buildings;
   for (const auto& [is_building, building] : ranked) {

@@ -37,12 +37,16 @@ void visit_columns(Row& row, Visitor&& visit) {
   visit("declared", row.is_declared);
   visit("declared_right", row.is_declared_right);
   visit("actions", row.actions);
+  visit("pivots", row.pivots);
   visit("driven_m", row.driven_m);
+  visit("simulated_seconds", row.simulated_s);
   visit("converged_actions", row.converged_actions);
   visit("converged_driven_m", row.converged_driven_m);
   visit("falsely_converged", row.is_falsely_converged);
   visit("collisions", row.collisions);
   visit("closest_m", row.closest_m);
+  visit("free_iou", row.free_iou);
+  visit("obstacle_iou", row.obstacle_iou);
   visit("step_ms", row.step_ms);
   visit("end", row.end);
   visit("drop_actions", row.drop_actions);

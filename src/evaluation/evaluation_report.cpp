@@ -90,10 +90,13 @@ constexpr const char* kColumns =
   shortest way over the way driven (at most 1). In brackets 95 % intervals, Wilson's for shares, bootstrap for SPL: over
   episodes in these worlds, not over worlds.
 - **declared SR**: the robot itself said that it had arrived, and was within 1 m of the goal; **declared elsewhere**: it
-  said so and was not. **actions**: mean of an episode.
+  said so and was not. **actions**: mean of an episode. **pivots**: turns of panoramas, which are not
+  among them; **seconds**: simulated, that the robot moved for, pivots included.
 - **converged**: at some time half the belief lay within 1 m of its estimate; **falsely**: share of those whose estimate
   was then off by more than 1 m or a quarter turn. Actions and metres until then: medians of those that converged.
 - **ms / action**: mean wall time of seeing, believing and planning on this machine, whatever else it was doing.
+- **IoU**: intersection over union of what the planner was told of the square of 3.2 m about the robot with what a
+  sensor without errors would see there from the robot's middle at all its heights, as far as that is in sight.
 - **kidnapped**: once the robot was carried elsewhere, and its odometry did not notice; SR, SPL and declarations count
   from then on. **recovered**: the belief had converged to the right place again and stayed, for 5 looks or to the end;
   actions until then: the median of all, those that did not recover counted as later than any.
@@ -116,8 +119,8 @@ std::string task_section(const std::vector<EpisodeTable>& tables) {
   for (const EpisodeTable& table : tables) {
     const EpisodeTable whole = {table.task, table.mpp, without_variants(table.rows)};
     text += text_of("### %s, %.2f m/cell\n\n", table.task.c_str(), table.mpp) +
-            success_table(whole) + kidnap_table(table) + cost_table(whole) + building_table(whole) +
-            paired_table(whole);
+            success_table(whole) + kidnap_table(table) + cost_table(whole) + sight_table(whole) +
+            building_table(whole) + paired_table(whole);
     const std::string ablation = ablation_table(table);
     text +=
         ablation.empty() ? "" : "One part off at a time, in points of a hundred:\n\n" + ablation;
@@ -165,6 +168,9 @@ std::vector<std::string> result_lines(const std::vector<EpisodeRow>& rows) {
       lines.push_back(
           "RESULT task=" + table.task + text_of(" mpp=%.2f", table.mpp) + " method=" + method +
           text_of(" SR=%.3f SPL=%.3f episodes=%d", m.success.value, m.spl.value, m.episodes) +
+          (m.mean_pivots > 0.0
+               ? text_of(" pivots=%.0f seconds=%.0f", m.mean_pivots, m.mean_simulated_s)
+               : "") +
           (m.kidnapped > 0 ? text_of(" recovered=%.3f", m.recovered.value) + " median_actions=" +
                                  number_text("%.0f", m.median_recovered_actions)
                            : ""));

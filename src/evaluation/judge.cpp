@@ -78,9 +78,15 @@ void Judge::look_at(const Localization& at, const CoarseMap& map, const Pose2& T
   }
 }
 
-void Judge::count_action(const Action& action) {
+void Judge::count_action(const Action& action, double duration_s) {
   ++row_.actions;
+  row_.simulated_s += duration_s;
   commanded_m_ += action.type == ActionType::kMoveForward ? action.distance_m : 0.0;
+}
+
+void Judge::count_pivot(double duration_s) {
+  ++row_.pivots;
+  row_.simulated_s += duration_s;
 }
 
 void Judge::hear_reached(const StepDrive& robot) {

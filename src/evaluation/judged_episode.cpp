@@ -3,11 +3,14 @@
 #include "coarse_map_nav/evaluation/judged_episode.hpp"
 
 #include "coarse_map_nav/data/random.hpp"
+#include "coarse_map_nav/evaluation/action_times.hpp"
+#include "coarse_map_nav/evaluation/looks.hpp"
+#include "coarse_map_nav/evaluation/sight_score.hpp"
 #include "coarse_map_nav/localization/belief_filter.hpp"
 #include "coarse_map_nav/localization/given_pose.hpp"
 #include "coarse_map_nav/mapping/regions.hpp"
 #include "coarse_map_nav/navigator.hpp"
-#include "coarse_map_nav/simulation/range_sensor.hpp"
+#include "coarse_map_nav/simulation/planar_sensors.hpp"
 #include "coarse_map_nav/simulation/step_drive.hpp"
 
 #include <algorithm>
@@ -112,6 +115,12 @@ std::unique_ptr<Localizer> localizer_for(const Method& method, const Task& task,
   return localizer;
 }
 
+std::unique_ptr<SceneSensors> sensors_in(const Scene& scene, const LidarParams& lidar,
+                                         std::uint32_t seed) {
+  return scene.sensors ? scene.sensors(lidar, seed)
+                       : std::make_unique<PlanarSensors>(scene.world, lidar, seed);
+}
+
 Action any_action(std::mt19937_64& rng, double step_m) {
   constexpr std::array<ActionType, 3> kActions{ActionType::kMoveForward, ActionType::kTurnLeft,
                                                ActionType::kTurnRight};
@@ -157,12 +166,15 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   params.planning.seed = seed();
   SimulationParams simulation = judge.simulation;
   simulation.robot.sliding |= task.has_paper_setting && judge.papers_robot_slides;
-  if (task.observation == ObservationKind::kForwardLidar) {
+  if (task.observation == ObservationKind::kForward) {
     simulation.lidar.field_of_view_deg = 180.0;
     simulation.lidar.beams = simulation.lidar.beams / 2 + 1;
   }
   StepDrive robot{scene.world, simulation.robot, route.T_world_start, rng()};
-  RangeSensor lidar{simulation.lidar, seed()};
+  const std::unique_ptr<SceneSensors> sensors = sensors_in(scene, simulation.lidar, seed());
+  Looks looks{*sensors, params.perception};
+  SightScore sight{scene.world};
+  ActionTimes times{simulation.robot, params.motion};
 
   const GivenMap given = given_map(scene, drawing, method, params.planning.step_m);
   MeasurementModelParams& measurement = params.localization.measurement;
@@ -200,22 +212,28 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   the_judge.look_at(robot);
   while (true) {
     const Pose2 T_map_true = given.from_world(robot.truth());
-    const RangeScan scan = lidar.measure(scene.world, robot.truth(), 0.0);
+    const SensorData data = looks.at(robot.truth(), row.simulated_s);
     if (told != nullptr) {
       told->place(T_map_true);
     }
     const double before_s = clock_s();
     Decision decision = task.observation == ObservationKind::kTrueCrop
-                            ? navigator.step(scan,
+                            ? navigator.step(*data.scan,
                                              true_crop(drawing.map(), drawing.scale(),
                                                        drawing.world_to_map(robot.truth())),
                                              robot.T_odom_robot(), last_outcome)
-                            : navigator.step(scan, robot.T_odom_robot(), last_outcome);
+                            : navigator.step(data, robot.T_odom_robot(), last_outcome);
     thinking_s += clock_s() - before_s;
     ++steps;
     const Localization at = navigator.localizer().localization();
-    the_judge.look_at(at, given.map, T_map_true, told == nullptr);
-    if (recorder) {
+    if (!decision.is_pivot) {
+      the_judge.look_at(at, given.map, T_map_true, told == nullptr);
+    }
+    if (scene.sensors && !decision.is_pivot) {
+      const LocalOccupancy& local_map = navigator.local_map();
+      sight.add(local_map.size > 0 ? local_map : navigator.seen(), robot.truth());
+    }
+    if (recorder && !decision.is_pivot) {
       const Pose2 T_map_estimate = estimated_pose(at, given.map);
       recorder({robot.truth(), at, T_map_true, T_map_estimate, given.to_world(T_map_estimate),
                 robot.collisions(), given.map, goal.position(), decision, navigator.local_map(),
@@ -249,8 +267,10 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
       break;
     }
     last_outcome = robot.carry_out(decision.action);
-    if (!decision.is_pivot) {
-      the_judge.count_action(decision.action);
+    if (decision.is_pivot) {
+      the_judge.count_pivot(times.of(decision.action));
+    } else {
+      the_judge.count_action(decision.action, times.of(decision.action));
     }
     the_judge.look_at(robot);
     if (the_judge.is_time_to_kidnap(robot)) {
@@ -258,6 +278,8 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     }
   }
   the_judge.end();
+  row.free_iou = sight.free_iou();
+  row.obstacle_iou = sight.obstacle_iou();
   row.step_ms = 1000.0 * thinking_s / steps;
   return row;
 }

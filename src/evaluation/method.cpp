@@ -16,6 +16,10 @@ const std::vector<Method>& methods() {
     ours.has_shared_planner = false;
     Method rolling{"rolling", "rolling.yaml"};
     rolling.has_shared_planner = false;
+    Method depth_rolling{"depth_rolling", "depth_rolling.yaml"};
+    depth_rolling.has_shared_planner = false;
+    Method fused{"fused", "fused.yaml"};
+    fused.has_shared_planner = false;
     Method cmn{"cmn", "cmn_tree.yaml"};
     cmn.knows_heading = cmn.ends_by_judge = true;
     Method robb{"robb", "cmn.yaml"};
@@ -33,7 +37,8 @@ const std::vector<Method>& methods() {
     Method oracle{"oracle", "rolling.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
     oracle.has_shared_planner = false;
-    return std::vector<Method>{ours, rolling, cmn, robb, mcse, rmn, rnd, true_pose, oracle};
+    return std::vector<Method>{ours, rolling, depth_rolling, fused,     cmn,   robb,
+                               mcse, rmn,     rnd,           true_pose, oracle};
   }();
   return kMethods;
 }
@@ -144,6 +149,12 @@ NavigatorParams method_params(const Method& method, const Task& task,
   }
   if (task.has_paper_setting) {
     params.perception.guard.type = "none";
+  }
+  if (task.observation == ObservationKind::kDepthPanorama) {
+    params.perception.source = "depth";
+    params.perception.accumulate = "panorama";
+    params.perception.accumulate_local_map = "rolling";
+    params.localization.scaled.compass.drift_per_look_deg = 2.0;
   }
   if (method.has_shared_planner && !task.has_paper_setting) {
     params.planning.policy = "lattice";

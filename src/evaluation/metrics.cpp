@@ -19,8 +19,16 @@ namespace {
 constexpr double kLater = 1e9;
 constexpr double kNormal975 = 1.959963984540054;  ///< 97.5 % of a normal variable lie below it
 
+/// NaN for none.
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Adds `value` unless it is NaN.
+void add_number(std::vector<double>& values, double value) {
+  if (!std::isnan(value)) {
+    values.push_back(value);
+  }
 }
 
 /// Quantile of sorted values, linear between neighbours.
@@ -118,6 +126,10 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
   double driven_m = 0.0;
   double actions = 0.0;
   double time_ms = 0.0;
+  double pivots = 0.0;
+  double simulated_s = 0.0;
+  std::vector<double> free_iou;
+  std::vector<double> obstacle_iou;
   int recoveries = 0;
   std::vector<double> recovered_actions;
   std::vector<double> spl;
@@ -131,6 +143,10 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
     driven_m += row.driven_m;
     actions += row.actions;
     time_ms += row.actions * row.step_ms;
+    pivots += row.pivots;
+    simulated_s += row.simulated_s;
+    add_number(free_iou, row.free_iou);
+    add_number(obstacle_iou, row.obstacle_iou);
     spl.push_back(row.spl());
     if (row.drop_actions >= 0) {
       recoveries += row.recovered_actions >= 0;
@@ -164,7 +180,11 @@ Metrics metrics_of(const std::vector<EpisodeRow>& rows) {
   }
   if (n > 0) {
     metrics.mean_actions = actions / n;
+    metrics.mean_pivots = pivots / n;
+    metrics.mean_simulated_s = simulated_s / n;
   }
+  metrics.free_iou = mean(free_iou);
+  metrics.obstacle_iou = mean(obstacle_iou);
   if (actions > 0.0) {
     metrics.step_ms = time_ms / actions;
   }

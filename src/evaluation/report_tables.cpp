@@ -53,14 +53,16 @@ std::string unequal_methods(const EpisodeTable& table) {
 }  // namespace
 
 std::string success_table(const EpisodeTable& table) {
-  std::string text =
-      unequal_methods(table) + table_head({"method", "N", "SR [%]", "SPL [%]", "declared SR [%]",
-                                           "declared elsewhere [%]", "actions"});
+  std::string text = unequal_methods(table) +
+                     table_head({"method", "N", "SR [%]", "SPL [%]", "declared SR [%]",
+                                 "declared elsewhere [%]", "actions", "pivots", "seconds"});
   for (const std::string& method : methods_of(table.rows)) {
     const Metrics m = metrics_of(of_method(table.rows, method));
-    text += table_row({method_label(method), std::to_string(m.episodes), interval_text(m.success),
-                       interval_text(m.spl), percent_text(m.declared_right.value),
-                       percent_text(m.declared_wrong.value), number_text("%.0f", m.mean_actions)});
+    text +=
+        table_row({method_label(method), std::to_string(m.episodes), interval_text(m.success),
+                   interval_text(m.spl), percent_text(m.declared_right.value),
+                   percent_text(m.declared_wrong.value), number_text("%.0f", m.mean_actions),
+                   number_text("%.0f", m.mean_pivots), number_text("%.0f", m.mean_simulated_s)});
   }
   return text + "\n";
 }
@@ -117,6 +119,18 @@ std::string kidnap_table(const EpisodeTable& table) {
     text += table_row({method_label(method), std::to_string(m.kidnapped),
                        interval_text(m.recovered), number_text("%.0f", m.median_recovered_actions),
                        percent_text(m.success.value), percent_text(m.declared_wrong.value)});
+  }
+  return has_any ? text + "\n" : "";
+}
+
+std::string sight_table(const EpisodeTable& table) {
+  std::string text = table_head({"seen", "IoU of free ground [%]", "IoU of obstacles [%]"});
+  bool has_any = false;
+  for (const std::string& method : methods_of(table.rows)) {
+    const Metrics m = metrics_of(of_method(table.rows, method));
+    has_any = has_any || !std::isnan(m.free_iou);
+    text +=
+        table_row({method_label(method), percent_text(m.free_iou), percent_text(m.obstacle_iou)});
   }
   return has_any ? text + "\n" : "";
 }

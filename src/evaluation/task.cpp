@@ -15,12 +15,13 @@ const std::vector<Task>& tasks() {
   static const std::vector<Task> kTasks{
       {"CG", D::kCoarseGrid, O::kTrueCrop, true, true},
       {"CL", D::kCoarseGrid, O::kLidar, false, false},
-      {"CF", D::kCoarseGrid, O::kForwardLidar, false, false},
+      {"CD", D::kCoarseGrid, O::kDepthPanorama, false, false},
+      {"CF", D::kCoarseGrid, O::kForward, false, false},
       {"HL", D::kHandDrawn, O::kLidar, false, false},
       {"WL", D::kWallsOnly, O::kLidar, false, false},
       {"TL", D::kTurnedGrid, O::kLidar, false, false},
       {"CLK", D::kCoarseGrid, O::kLidar, false, false, true},
-      {"CFK", D::kCoarseGrid, O::kForwardLidar, false, false, true},
+      {"CFK", D::kCoarseGrid, O::kForward, false, false, true},
       {"HLK", D::kHandDrawn, O::kLidar, false, false, true},
       {"WLK", D::kWallsOnly, O::kLidar, false, false, true},
   };

@@ -7,6 +7,13 @@
 
 namespace cmn {
 
+namespace {
+
+/// Under the robot itself; a camera that looks ahead does not see all of it.
+constexpr double kOwnGround_m = 0.2;
+
+}  // namespace
+
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m) {
   RayProfile profile;
   const double step = 0.5 * seen.resolution;
@@ -20,6 +27,9 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
       const int iy =
           static_cast<int>(std::floor(range * ahead.y / seen.resolution + 0.5 * seen.size));
       const std::size_t i = seen.index_of(ix, iy);
+      if (seen.confidence[i] <= 0.0F && range <= kOwnGround_m && ray.range_m == 0.0) {
+        continue;
+      }
       if (seen.confidence[i] <= 0.0F) {
         break;
       }

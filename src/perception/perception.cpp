@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/perception.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <optional>
@@ -17,19 +18,30 @@ class SingleLooks : public Accumulator {
   void forget() override {}
 };
 
+/// In its plane a LiDAR sees the ground to be free; a seat may stand below that, and a table's top
+/// above.
+void presume_free(LocalOccupancy& of_plane) {
+  for (std::size_t i = 0; i < of_plane.cell_count(); ++i) {
+    if (of_plane.occupancy[i] <= 0.5F) {
+      of_plane.confidence[i] = std::min(of_plane.confidence[i], kPresumed);
+    }
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params) {
-  if (params.accumulate == "none") {
+std::unique_ptr<Accumulator> make_accumulator(const std::string& word,
+                                              const PerceptionParams& params) {
+  if (word == "none") {
     return std::make_unique<SingleLooks>();
   }
-  if (params.accumulate == "panorama") {
+  if (word == "panorama") {
     return std::make_unique<Panorama>(params.panorama);
   }
-  if (params.accumulate == "rolling") {
+  if (word == "rolling") {
     return std::make_unique<RollingMap>(params.rolling);
   }
-  throw std::invalid_argument("perception/accumulate \"" + params.accumulate +
+  throw std::invalid_argument("perception/accumulate \"" + word +
                               "\" is none of none, panorama, rolling");
 }
 
@@ -50,14 +62,17 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
   return all;
 }
 
-Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid)
-    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(params)} {}
+Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid,
+                       const std::string& accumulate)
+    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(accumulate, params)} {}
 
 Perception::Perception(const PerceptionParams& params)
     : params_{params},
       depth_{params.depth},
-      seen_{params, params.local_occupancy},
-      local_map_{params, params.local_map} {}
+      seen_{params, params.local_occupancy, params.accumulate},
+      local_map_{params, params.local_map,
+                 params.accumulate_local_map == "same" ? params.accumulate
+                                                       : params.accumulate_local_map} {}
 
 RangeScan Perception::depth_scan(const SensorData& data) {
   assert(data.image != nullptr || data.cloud != nullptr);
@@ -70,8 +85,11 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
   const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
   const bool is_fused = params_.uses_scan() && params_.uses_depth();
   const auto joined = [&](View& view, LocalOccupancy&& of_guard) {
-    return is_fused ? nearest_of(of_guard, view.depth_projector.project(of_depth))
-                    : std::move(of_guard);
+    if (!is_fused) {
+      return std::move(of_guard);
+    }
+    presume_free(of_guard);
+    return nearest_of(of_guard, view.depth_projector.project(of_depth));
   };
 
   Percept percept;

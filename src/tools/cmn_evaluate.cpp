@@ -85,17 +85,18 @@ int positive(const po::variables_map& given, const std::string& option) {
   return value;
 }
 
-/// The presets: beside the installed program, or in the source tree that it was built from.
-fs::path find_config() {
+/// The folder that has config/ and urdf/: beside the installed program, or the source tree that it
+/// was built from.
+fs::path find_share() {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (fs::path at = program.parent_path(); at != at.root_path(); at = at.parent_path()) {
-    for (const fs::path& dir : {at / "share" / "coarse_map_nav" / "config", at / "config"}) {
-      if (fs::exists(dir / "cmn.yaml")) {
+    for (const fs::path& dir : {at / "share" / "coarse_map_nav", at}) {
+      if (fs::exists(dir / "config" / "cmn.yaml")) {
         return dir;
       }
     }
   }
-  throw std::runtime_error("the folder of presets was not found: give --config");
+  throw std::runtime_error("the folders config and urdf were not found: give --config and --robot");
 }
 
 /// Throws std::runtime_error when it is none, or finer than the names of episodes show.
@@ -175,11 +176,13 @@ int run(int argc, char** argv) {
   auto add_option = options.add_options();
   add_option("help", "print this");
   add_option("world", po::value<std::vector<std::string>>()->multitoken()->composing(),
-             "metric worlds: map_server yaml, generated homes as house:7 or house:1-50");
+             "metric worlds: map_server yaml, generated homes as house:7 or house:1-50; with "
+             "heights: Gazebo's .world or .sdf, homes as furnished:7 or furnished:1-50");
   add_option(
       "task",
       po::value<std::vector<std::string>>()->multitoken()->composing()->default_value({"CL"}, "CL"),
-      "CG, CL, CF, HL, WL, TL; CLK, CFK, HLK, WLK: likewise, kidnapped once; several with commas");
+      "CG, CL, CD, CF, HL, WL, TL; CLK, CFK, HLK, WLK: likewise, kidnapped once; several with "
+      "commas");
   add_option("mpp",
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
                  {"0.4"}, "0.4"),
@@ -201,6 +204,9 @@ int run(int argc, char** argv) {
   add_option("shard", po::value<std::string>()->default_value("0/1"), "i/n: every n-th episode");
   add_option("out", po::value<std::string>()->required(), "folder of episodes.csv and the report");
   add_option("config", po::value<std::string>(), "folder of the presets");
+  add_option("robot", po::value<std::string>(),
+             "its description (URDF), for where its sensors are in worlds with heights; default: "
+             "urdf/locobot.urdf");
   add_option("judge", po::value<std::string>(),
              "yaml file of what is to differ of the judge and the simulated robot, as "
              "{least_way_m: 1, simulation: {robot: {radius_m: 0.1}}}");
@@ -254,8 +260,10 @@ int run(int argc, char** argv) {
     throw std::runtime_error("--shard is i/n with 0 <= i < n");
   }
   plan.out = given["out"].as<std::string>();
-  plan.config =
-      given.count("config") != 0 ? fs::path{given["config"].as<std::string>()} : find_config();
+  plan.config = given.count("config") != 0 ? fs::path{given["config"].as<std::string>()}
+                                           : find_share() / "config";
+  plan.robot = given.count("robot") != 0 ? fs::path{given["robot"].as<std::string>()}
+                                         : find_share() / "urdf" / "locobot.urdf";
   cmn::ParamTree judge;
   if (given.count("judge") != 0) {
     judge = judge_changes(given["judge"].as<std::string>(), plan.judge);
@@ -294,6 +302,9 @@ int run(int argc, char** argv) {
   cmn::Evaluation evaluation{plan, log};
   context.horizon = evaluation.horizon();
   context.settings.emplace_back("judge", judge.empty() ? "as shipped" : changes_text(judge));
+  context.settings.emplace_back("robot", plan.robot.filename().string());
+  context.settings.emplace_back(
+      "furniture", fs::exists(cmn::kFurnitureFolder) ? "meshes, where there are heights" : "boxes");
   for (const cmn::Method& method : plan.methods) {
     if (!method.changes.empty()) {
       context.settings.emplace_back(method.name, changes_text(method.changes));

@@ -7,6 +7,7 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/navigator.hpp"
 #include "coarse_map_nav/params.hpp"
+#include "coarse_map_nav/simulation/scene_sensors.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 #include "coarse_map_nav/simulation/world.hpp"
 
@@ -44,9 +45,11 @@ struct EpisodeResult {
 
 /// Runs the robot until the planner declares an end. The noise of the world comes from `seed`, the
 /// robot's own choices from the seeds in `params`. A goal that the planner rejects ends at once as
-/// kFailed, with its reason.
+/// kFailed, with its reason. `sensors` are those of a world with heights; null: the simulator's
+/// LiDAR.
 EpisodeResult run_episode(const World& world, const SimulationParams& simulation,
                           const CoarseMap& map, const NavigatorParams& params,
-                          const EpisodeTask& task, std::uint32_t seed);
+                          const EpisodeTask& task, std::uint32_t seed,
+                          SceneSensors* sensors = nullptr);
 
 }  // namespace cmn

@@ -17,8 +17,8 @@ namespace cmn {
 
 /// What names an episode; all that a replay needs beside the worlds and the options of the run.
 struct EpisodeKey {
-  std::string task;   ///< CG, CL, CF, HL, WL, and CLK to WLK
-  std::string world;  ///< name of a building, or house:SEED
+  std::string task;   ///< CG, CL, CD, CF, HL, WL, ..., and CLK to WLK
+  std::string world;  ///< name of a building, house:SEED or furnished:SEED
   double mpp = 0.4;   ///< [m/cell] of the drawing
   std::string method;
   int index = 0;           ///< of the episode in this world, from 0
@@ -49,15 +49,20 @@ struct EpisodeRow {
   bool is_declared = false;        ///< the robot itself said REACHED ...
   bool is_declared_right = false;  ///< ... within 1 m of the goal
   int actions = 0;                 ///< all of the episode
+  int pivots = 0;                  ///< turns of panoramas, not among the actions
   double driven_m = 0.0;
+  double simulated_s = 0.0;    ///< that the robot moved for, pivots included
   int converged_actions = -1;  ///< first convergence of the belief
   double converged_driven_m = kNever;
   bool is_falsely_converged = false;  ///< then, by more than 1 m or a quarter turn
   int collisions = 0;
   double closest_m = kNever;  ///< to the goal, ever
-  double step_ms = 0.0;       ///< mean wall time of see + believe + plan; not reproducible
-  std::string end;            ///< reached, failed, horizon, success (the judge's), goal refused,
-                              ///< no route
+  /// Of what was seen with that in sight, see sight_score.hpp; in worlds with heights alone.
+  double free_iou = kNever;
+  double obstacle_iou = kNever;
+  double step_ms = 0.0;  ///< mean wall time of see + believe + plan; not reproducible
+  std::string end;       ///< reached, failed, horizon, success (the judge's), goal refused,
+                         ///< no route
 
   ConfidenceBins confidence;  ///< of all looks, but of a method that is told its pose
 

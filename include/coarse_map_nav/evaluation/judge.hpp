@@ -33,6 +33,9 @@ struct JudgeParams {
   double converged_confidence = 0.5;
   double least_way_m = 3.0;
   double most_way_m = 20.0;
+  /// Of worlds with heights: what stands lower than this is in the robot's way, and drawn.
+  /// DepthParams takes the same for an obstacle: the LoCoBot of 0.6 m does not drive under tables.
+  double robot_height_m = 0.8;
   bool papers_robot_slides = true;
   bool counts_commanded_way = false;
   bool forgets_at_goal = false;
@@ -44,6 +47,8 @@ struct JudgeParams {
           "[m] success: this near to the goal");
     visit("least_way_m", self.least_way_m, Between{0.1, 1000.0}, "[m] from start to goal");
     visit("most_way_m", self.most_way_m, Between{0.1, 1000.0}, "[m] from start to goal");
+    visit("robot_height_m", self.robot_height_m, Between{0.05, 2.5},
+          "[m] in a world with heights what stands lower stops the robot, and is drawn");
     visit("papers_robot_slides", self.papers_robot_slides, Anything{},
           "in the CMN paper's own setting (CG) the robot slides along walls, whatever "
           "simulation/robot/sliding says");
@@ -78,7 +83,9 @@ class Judge {
                bool is_stated);
   /// The robot says that it has arrived; the first word counts.
   void hear_reached(const StepDrive& robot);
-  void count_action(const Action& action);
+  /// One that took so long.
+  void count_action(const Action& action, double duration_s);
+  void count_pivot(double duration_s);
 
   /// The robot is to be kidnapped before the next look; at any end that it declares before.
   bool is_time_to_kidnap(const StepDrive& robot) const;

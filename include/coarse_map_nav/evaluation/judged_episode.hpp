@@ -10,9 +10,12 @@
 #include "coarse_map_nav/evaluation/method.hpp"
 #include "coarse_map_nav/evaluation/route_sampler.hpp"
 #include "coarse_map_nav/evaluation/task.hpp"
+#include "coarse_map_nav/simulation/scene_sensors.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,25 +23,30 @@ namespace cmn {
 
 class Navigator;
 
+/// Puts a robot's sensors into a world with heights. Called by several threads at once.
+using SensorMaker =
+    std::function<std::unique_ptr<SceneSensors>(const LidarParams& lidar, std::uint32_t seed)>;
+
 /// A world that episodes are played in, made ready once.
 struct Scene {
   Scene(std::string scene_name, CoarseMap world_map, std::optional<CoarseMap> wall_map,
         const JudgeParams& judge);
 
   std::string name;
-  CoarseMap map;
+  CoarseMap map;                   ///< what stops the robot, and is drawn
   std::optional<CoarseMap> walls;  ///< of a generated house
   World world;
   RouteSampler routes;
   CoarseMap drivable;  ///< where the middle of the robot can be: what the oracle plans on
   std::optional<Drawing> drawing;  ///< given, in place of those that the tasks make
+  SensorMaker sensors;             ///< of a world with heights; empty: a LiDAR in the plane
 };
 
 /// The start and goal of an episode whose goal is free on the drawing, or none.
 std::optional<Route> sample_route(const Scene& scene, const Drawing& drawing,
                                   const JudgeParams& judge, std::uint64_t seed);
 
-/// What a recorder may look at before each action is carried out.
+/// What a recorder may look at before each action is carried out; pivots are none.
 struct EpisodeMoment {
   Pose2 T_world_robot;
   Localization localization;

@@ -47,6 +47,10 @@ struct Metrics {
   double median_converged_driven_m = EpisodeRow::kNever;  ///< among those that converged
   double collisions_per_100_m = EpisodeRow::kNever;       ///< NaN when nothing was driven
   double mean_actions = EpisodeRow::kNever;
+  double mean_pivots = EpisodeRow::kNever;
+  double mean_simulated_s = EpisodeRow::kNever;
+  double free_iou = EpisodeRow::kNever;  ///< mean of the episodes that have one
+  double obstacle_iou = EpisodeRow::kNever;
   int kidnapped = 0;  ///< episodes in which the robot was carried elsewhere
   Figure recovered;   ///< share of those
   /// After the drop, those that never recovered counted as later than all; NaN when half did not.

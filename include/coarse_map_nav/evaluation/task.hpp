@@ -16,9 +16,10 @@ enum class DrawingKind { kCoarseGrid, kHandDrawn, kWallsOnly, kTurnedGrid };
 /// Of kTurnedGrid: how far its axes lie from those of the walls.
 constexpr double kDrawingTurn_rad = 7.0 * kPi / 180.0;
 enum class ObservationKind {
-  kTrueCrop,     ///< the true 3 x 3 crop of the map (CMN, "grid observations")
-  kLidar,        ///< 360 deg
-  kForwardLidar  ///< 180 deg, forward-facing
+  kTrueCrop,      ///< the true 3 x 3 crop of the map (CMN, "grid observations")
+  kLidar,         ///< 360 deg; and the depth camera, where a method's preset looks with it
+  kForward,       ///< likewise, but the LiDAR looks forward, too: 180 deg
+  kDepthPanorama  ///< four looks of the depth camera with pivots, whatever the preset
 };
 
 struct Task {

@@ -24,8 +24,8 @@ struct Ray {
 using RayProfile = std::array<Ray, kBearings>;
 
 /// Casts rays through a local occupancy grid whose x axis has yaw `yaw_rad` in the frame of the
-/// profile. A ray ends at the first cell seen to be occupied, at the first that was not seen, or at
-/// `reach_m`. Whatever sensor filled the grid, the profile looks the same.
+/// profile. A ray ends at the first cell seen to be occupied, at the first that was not seen (but
+/// for those that the robot stands on), or at `reach_m`. Whatever sensor filled the grid, the profile looks the same.
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m);
 
 }  // namespace cmn

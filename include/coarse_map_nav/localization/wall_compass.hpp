@@ -19,6 +19,7 @@ struct WallCompassParams {
   double look_sigma_deg = 4.0;
   double drift_per_turn_deg = 1.0;
   double drift_per_m_deg = 0.3;
+  double drift_per_look_deg = 0.0;
   double least_peak = 1.2;
   double bin_m = 0.1;
   template <class Self, class Visitor>
@@ -36,6 +37,9 @@ struct WallCompassParams {
           "[deg] drift of the odometry's heading in a quarter turn, one sigma");
     visit("drift_per_m_deg", self.drift_per_m_deg, Between{0.0, 45.0},
           "[deg] and in a metre driven");
+    visit("drift_per_look_deg", self.drift_per_look_deg, Between{0.0, 45.0},
+          "[deg] and from look to look in turns that end where they began and are not told of, as "
+          "the four of a panorama");
     visit("least_peak", self.least_peak, Between{1.01, 10.0},
           "[-] how much sharper than on average walls must show up in a direction to count");
     visit("bin_m", self.bin_m, Between{0.02, 1.0},

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 
 #include <memory>
+#include <string>
 
 namespace cmn {
 
@@ -24,7 +25,9 @@ class Accumulator {
 };
 
 struct PerceptionParams;
-/// "none", "panorama" (CMN, Robb) or "rolling" (CMP), by `params.accumulate`.
-std::unique_ptr<Accumulator> make_accumulator(const PerceptionParams& params);
+/// By the word of a parameter: "none", "panorama" (CMN, Robb) or "rolling" (CMP). Throws
+/// std::invalid_argument naming any other.
+std::unique_ptr<Accumulator> make_accumulator(const std::string& word,
+                                              const PerceptionParams& params);
 
 }  // namespace cmn

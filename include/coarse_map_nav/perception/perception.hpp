@@ -24,6 +24,7 @@ namespace cmn {
 struct PerceptionParams {
   std::string source = "lidar";
   std::string accumulate = "none";
+  std::string accumulate_local_map = "same";
   DepthParams depth;
   PanoramaParams panorama;
   RollingMapParams rolling;
@@ -41,6 +42,9 @@ struct PerceptionParams {
     visit("accumulate", self.accumulate, OneOf{{"none", "panorama", "rolling"}},
           "none: each look by itself; panorama: four looks, a quarter turn apart, are one (CMN); "
           "rolling: what was seen lately is kept (CMP eq. 1 to 3)");
+    visit("accumulate_local_map", self.accumulate_local_map, OneOf{{"same", "rolling"}},
+          "likewise of what the planner is told; same: as accumulate says; rolling: for a camera "
+          "that does not see what is near, and has seen it before");
     visit.group("depth", self.depth);
     visit.group("panorama", self.panorama);
     visit.group("rolling", self.rolling);
@@ -74,9 +78,10 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b);
 
 class Perception {
  public:
-  /// Throws std::invalid_argument when `params.accumulate` is unknown.
+  /// Throws std::invalid_argument when a word of `params` is unknown.
   explicit Perception(const PerceptionParams& params);
 
+  /// Of both sensors, ground that the LiDAR alone sees to be free is presumed to be (kPresumed).
   /// `data` was measured with the robot at `T_odom_robot`, which `accumulate: none` makes no use
   /// of.
   Percept look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map);
@@ -90,7 +95,8 @@ class Perception {
  private:
   /// A grid about the robot and what is made of looks on it.
   struct View {
-    View(const PerceptionParams& params, const ProjectionParams& grid);
+    View(const PerceptionParams& params, const ProjectionParams& grid,
+         const std::string& accumulate);
     RangeProjector projector;        ///< of the sensor that guards
     RangeProjector depth_projector;  ///< of the camera beside a LiDAR
     std::unique_ptr<Accumulator> accumulator;

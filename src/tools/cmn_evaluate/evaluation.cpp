@@ -3,10 +3,7 @@
 #include "evaluation.hpp"
 
 #include "coarse_map_nav/evaluation/episode_group.hpp"
-#include "coarse_map_nav/evaluation/given_drawing.hpp"
-#include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/evaluation/progress.hpp"
-#include "coarse_map_nav/mapping/map_reader.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -68,45 +65,7 @@ std::uint64_t mixed(std::uint64_t value) {  // SplitMix64 (Steele et al. 2014)
   return value ^ (value >> 31U);
 }
 
-const std::string kHouse = "house:";
-constexpr std::uint32_t kMostHouses = 10000;
-
-bool is_house(const std::string& world) { return world.rfind(kHouse, 0) == 0; }
-
-std::uint32_t house_seed(const std::string& world) {
-  const std::string digits = world.substr(kHouse.size());
-  if (digits.empty() || digits.size() > 9 ||
-      digits.find_first_not_of("0123456789") != std::string::npos) {
-    throw std::runtime_error(world + " is no house: house:SEED or house:FIRST-LAST");
-  }
-  return static_cast<std::uint32_t>(std::stoul(digits));
-}
-
 }  // namespace
-
-std::vector<std::string> expand_houses(const std::vector<std::string>& worlds) {
-  std::vector<std::string> expanded;
-  for (const std::string& world : worlds) {
-    const std::size_t dash = world.find('-');
-    if (!is_house(world) || dash == std::string::npos) {
-      expanded.push_back(world);
-      continue;
-    }
-    const std::uint32_t first = house_seed(world.substr(0, dash));
-    const std::uint32_t last = house_seed(kHouse + world.substr(dash + 1));
-    if (first > last || last - first >= kMostHouses) {
-      throw std::runtime_error(world + " are no houses, or too many");
-    }
-    for (std::uint32_t seed = first; seed <= last; ++seed) {
-      expanded.push_back(kHouse + std::to_string(seed));
-    }
-  }
-  return expanded;
-}
-
-std::string scene_name(const std::string& world) {
-  return is_house(world) ? world : std::filesystem::path{world}.stem().string();
-}
 
 std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index) {
   std::uint64_t value = mixed(seed);
@@ -114,39 +73,6 @@ std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int ind
     value = mixed(value + static_cast<unsigned char>(letter));
   }
   return mixed(value + static_cast<std::uint64_t>(index));
-}
-
-namespace {
-
-std::unique_ptr<Scene> read_world(const std::string& world, const JudgeParams& judge) {
-  constexpr double kHouseCell_m = 0.05;
-  try {
-    if (is_house(world)) {
-      const House house = generate_house(house_seed(world));
-      return std::make_unique<Scene>(world, occupancy(house, kHouseCell_m),
-                                     walls(house, kHouseCell_m), judge);
-    }
-    return std::make_unique<Scene>(scene_name(world), read_map(world), std::nullopt, judge);
-  } catch (const std::exception& e) {
-    const std::string why = e.what();
-    throw std::runtime_error(why.find(world) == std::string::npos ? world + ": " + why : why);
-  }
-}
-
-}  // namespace
-
-std::unique_ptr<Scene> read_scene(const std::string& world, const Plan& plan) {
-  std::unique_ptr<Scene> scene = read_world(world, plan.judge);
-  if (!plan.map.empty()) {
-    CoarseMap map = read_map(plan.map);
-    const std::vector<Place> places = read_places(plan.map_to_world).places;
-    try {
-      scene->drawing = given_drawing(std::move(map), places, scene->map);
-    } catch (const std::runtime_error& e) {
-      throw std::runtime_error(plan.map + " with " + plan.map_to_world + ": " + e.what());
-    }
-  }
-  return scene;
 }
 
 std::vector<std::uint64_t> seeds_of(std::uint64_t seed) {
@@ -171,27 +97,13 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{log} {
+Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{log}, worlds_{plan} {
   for (const std::string& name : plan.tasks) {
     for (const Method& method : plan.methods) {
       params_[name][method.name] = method_params(method, find_task(name), plan.config.string());
     }
   }
-  std::set<std::string> names;
-  for (const std::string& world : plan.worlds) {
-    scenes_.push_back(read_scene(world, plan));
-    if (!names.insert(scenes_.back()->name).second) {
-      throw std::runtime_error(world + ": another world is called " + scenes_.back()->name);
-    }
-    const double cell_m = scenes_.back()->map.resolution();
-    const double finest = *std::min_element(plan.mpps.begin(), plan.mpps.end());
-    if (finest < cell_m) {
-      std::ostringstream text;
-      text << "--mpp " << finest << " is finer than " << world << ", which has cells of " << cell_m
-           << " m";
-      throw std::runtime_error(text.str());
-    }
-  }
+  open_worlds();
   for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
     for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
       for (std::size_t mpp = 0; mpp < plan.mpps.size(); ++mpp) {
@@ -199,6 +111,38 @@ Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{lo
           add({world, task, mpp, index});
         }
       }
+    }
+  }
+}
+
+void Evaluation::open_worlds() {
+  std::set<std::string> names;
+  std::set<std::pair<std::string, bool>> seen;  // worlds, with heights or without
+  for (const std::string& world : plan_.worlds) {
+    if (!names.insert(scene_name(world)).second) {
+      throw std::runtime_error(world + ": another world is called " + scene_name(world));
+    }
+    for (const auto& [task, methods] : params_) {
+      std::map<bool, std::string> examples;  // of those that see it with heights, and without
+      for (const auto& [method, params] : methods) {
+        examples[has_heights(world, params)] = method;
+        seen.emplace(world, has_heights(world, params));
+      }
+      if (examples.size() > 1 && changes_with_heights(world)) {
+        throw std::runtime_error(world + " has heights for " + examples[true] + " and none for " +
+                                 examples[false] + " in " + task + ": furnished:" +
+                                 world.substr(world.find(':') + 1) + " has them for all");
+      }
+    }
+  }
+  const double finest = *std::min_element(plan_.mpps.begin(), plan_.mpps.end());
+  for (const auto& [world, with_heights] : seen) {
+    const double cell_m = worlds_.open(world, with_heights).map.resolution();
+    if (finest < cell_m) {
+      std::ostringstream text;
+      text << "--mpp " << finest << " is finer than " << world << ", which has cells of " << cell_m
+           << " m";
+      throw std::runtime_error(text.str());
     }
   }
 }
@@ -238,7 +182,7 @@ void Evaluation::run(const std::function<bool()>& is_stopped) {
 EpisodeKey Evaluation::key_of(const Job& job, const std::string& method) const {
   EpisodeKey key;
   key.task = plan_.tasks[job.task];
-  key.world = scenes_[job.world]->name;
+  key.world = scene_name(plan_.worlds[job.world]);
   key.mpp = plan_.mpps[job.mpp];
   key.method = method;
   key.index = job.index;
@@ -274,7 +218,6 @@ void Evaluation::work(const std::function<bool()>& is_stopped, ProgressLine& pro
 }
 
 void Evaluation::play(const Job& job, ProgressLine& progress) {
-  const Scene& scene = *scenes_[job.world];
   const Task& task = find_task(plan_.tasks[job.task]);
   std::optional<Stage> ready;
   bool is_staged = false;
@@ -284,15 +227,17 @@ void Evaluation::play(const Job& job, ProgressLine& progress) {
     if (done_.count(row.key.id()) != 0) {
       continue;
     }
+    const NavigatorParams& params = params_.at(task.name).at(method.name);
+    const std::string& world = plan_.worlds[job.world];
+    const Scene& scene = worlds_.opened(world, has_heights(world, params));
     if (!is_staged) {
       ready = stage(scene, task, row.key.mpp, plan_.judge, row.key.seed);
       is_staged = true;
     }
     if (ready) {
       row.key.seed = ready->seed;
-      row =
-          run_judged_episode(scene, task, ready->drawing, ready->route, method,
-                             params_.at(task.name).at(method.name), plan_.judge, row.key, seconds);
+      row = run_judged_episode(scene, task, ready->drawing, ready->route, method, params,
+                               plan_.judge, row.key, seconds);
     } else {
       row.end = kNoRoute;
     }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// An evaluation as it is asked for, and its run on several threads.
+/// The run of an evaluation on several threads.
 #pragma once
 
 #include "coarse_map_nav/evaluation/episode_log.hpp"
@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -20,37 +19,14 @@
 #include <string>
 #include <vector>
 
-namespace cmn {
+#include "plan.hpp"
+#include "worlds.hpp"
 
-/// What is asked for.
-struct Plan {
-  std::vector<std::string> worlds;
-  std::string map;           ///< a drawing of the only world, in place of those that the tasks make
-  std::string map_to_world;  ///< the file of its places
-  std::vector<std::string> tasks;
-  std::vector<double> mpps;
-  std::vector<Method> methods;
-  int episodes = 0;
-  std::uint64_t seed = 1;
-  int jobs = 1;
-  int shard = 0;
-  int shards = 1;
-  std::filesystem::path out;
-  std::filesystem::path config;
-  bool resume = false;
-  JudgeParams judge;
-};
+namespace cmn {
 
 /// Wall time since some moment [s].
 double seconds();
 
-/// Worlds with house:FIRST-LAST written out. Throws std::runtime_error when it makes no sense.
-std::vector<std::string> expand_houses(const std::vector<std::string>& worlds);
-/// What a world is called in episodes: the name of its file, or house:SEED.
-std::string scene_name(const std::string& world);
-/// Reads a map, or generates a house, and what drawing is given of it. Throws std::runtime_error
-/// naming the world or the drawing.
-std::unique_ptr<Scene> read_scene(const std::string& world, const Plan& plan);
 /// The same for all methods, tasks and drawings: what differs between rows is the method. Worlds go
 /// by their names, so that a run may be split by worlds, too.
 std::uint64_t episode_seed(std::uint64_t seed, const std::string& scene, int index);
@@ -92,6 +68,8 @@ class Evaluation {
     int index;
   };
 
+  /// Throws std::runtime_error when methods would see different worlds by one name.
+  void open_worlds();
   EpisodeKey key_of(const Job& job, const std::string& method) const;
   void add(const Job& job);
   void work(const std::function<bool()>& is_stopped, ProgressLine& progress);
@@ -101,7 +79,7 @@ class Evaluation {
   const Plan& plan_;
   EpisodeLog& log_;
   std::set<std::string> done_;  ///< ids
-  std::vector<std::unique_ptr<Scene>> scenes_;
+  Worlds worlds_;
   std::vector<Job> jobs_;
   /// By task and method.
   std::map<std::string, std::map<std::string, NavigatorParams>> params_;

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <map>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,7 +41,7 @@ void leave_gallery(const Plan& plan, std::size_t count) {
   const std::vector<EpisodeRow> all = rows_in(plan.out);
   const fs::path folder = plan.out / "gallery";
   fs::create_directories(folder);
-  std::map<std::string, std::unique_ptr<Scene>> scenes;
+  Worlds worlds{plan};
   std::string text = "# The worst episodes\n\nWhat the columns say: docs/evaluation.md.\n\n";
   for (const Method& method : plan.methods) {
     const std::vector<EpisodeRow> rows = rows_of(plan, method.name, all);
@@ -53,13 +51,9 @@ void leave_gallery(const Plan& plan, std::size_t count) {
     }
     std::vector<EpisodeTrace> traces;
     for (const EpisodeRow& row : worst_episodes(rows, count)) {
-      std::unique_ptr<Scene>& scene = scenes[row.key.world];
-      if (!scene) {
-        scene = read_scene(world_of(plan, row.key), plan);
-      }
       EpisodeKey key = row.key;
       key.seed = episode_seed(plan.seed, key.world, key.index);
-      traces.push_back(run_again(plan, *scene, key).trace);
+      traces.push_back(run_again(plan, worlds, key).trace);
       merge_episodes({{row}, {traces.back().row}});
       if (!traces.back().steps.empty()) {
         write_picture(folder / (file_name_of(key) + ".png"), trace_picture(traces.back()));

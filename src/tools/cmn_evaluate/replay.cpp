@@ -65,8 +65,6 @@ void compare(const Plan& plan, const EpisodeRow& row) {
   }
 }
 
-}  // namespace
-
 std::string world_of(const Plan& plan, const EpisodeKey& key) {
   for (const std::string& world : plan.worlds) {
     if (scene_name(world) == key.world) {
@@ -75,6 +73,8 @@ std::string world_of(const Plan& plan, const EpisodeKey& key) {
   }
   throw std::runtime_error(key.id() + " needs a --world that is called " + key.world);
 }
+
+}  // namespace
 
 std::vector<EpisodeRow> rows_in(const fs::path& folder) {
   const std::string path = (folder / "episodes.csv").string();
@@ -107,11 +107,14 @@ void write_explanation(const fs::path& path, const EpisodeMoment& moment,
 
 }  // namespace
 
-Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
+Recording run_again(const Plan& plan, Worlds& worlds, EpisodeKey key,
                     const std::vector<int>& explained) {
   const Task& task = find_task(key.task);
   const auto method = std::find_if(plan.methods.begin(), plan.methods.end(),
                                    [&](const Method& m) { return m.name == key.method; });
+  const NavigatorParams params = method_params(*method, task, plan.config.string());
+  const std::string world = world_of(plan, key);
+  const Scene& scene = worlds.open(world, has_heights(world, params));
   const std::optional<Stage> ready = stage(scene, task, key.mpp, plan.judge, key.seed);
   if (!ready) {
     throw std::runtime_error(key.id() + ": no start and goal are far enough apart");
@@ -123,7 +126,6 @@ Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
   recording.trace.converged_confidence = plan.judge.converged_confidence;
   recording.setting.goal_world = ready->route.goal_world;
   recording.setting.time_unit = "actions";
-  const NavigatorParams params = method_params(*method, task, plan.config.string());
   const MomentPainter paint = [&](const EpisodeMoment& moment, int action) {
     if (std::find(explained.begin(), explained.end(), action) != explained.end()) {
       const std::string number = std::to_string(action);
@@ -145,12 +147,12 @@ Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
 void replay(const Plan& plan, const std::vector<std::string>& ids,
             const std::vector<int>& explained) {
   fs::create_directories(plan.out);
+  Worlds worlds{plan};
   std::map<std::string, std::vector<EpisodeTrace>> traces;  // by the name of the file
   for (const std::string& id : ids) {
     EpisodeKey key = parse_episode_id(id);
     key.seed = episode_seed(plan.seed, key.world, key.index);
-    const std::unique_ptr<Scene> scene = read_scene(world_of(plan, key), plan);
-    const Recording recording = run_again(plan, *scene, key, explained);
+    const Recording recording = run_again(plan, worlds, key, explained);
     std::cout << csv_header() << "\n" << csv_line(recording.trace.row) << "\n";
     if (recording.trace.steps.empty()) {
       std::cout << id << " ended before its first step: " << recording.trace.row.end << "\n";

@@ -24,12 +24,10 @@ struct Recording {
 };
 
 /// Runs one episode again; `key` as episode_seed() makes it, its method among the plan's; what
-/// replay() says of the actions `explained`. Throws std::runtime_error when it has no route.
-Recording run_again(const Plan& plan, const Scene& scene, EpisodeKey key,
+/// replay() says of the actions `explained`. Throws std::runtime_error when it has no route, or the
+/// plan no world that is called as that of the key.
+Recording run_again(const Plan& plan, Worlds& worlds, EpisodeKey key,
                     const std::vector<int>& explained = {});
-
-/// The world of the plan that is called as that of the key. Throws std::runtime_error without one.
-std::string world_of(const Plan& plan, const EpisodeKey& key);
 
 /// The rows of a run. Throws std::runtime_error when there are none.
 std::vector<EpisodeRow> rows_in(const std::filesystem::path& folder);

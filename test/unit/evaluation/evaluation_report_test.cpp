@@ -49,6 +49,25 @@ TEST(ResultLines, AreOneAMethodInTheirOrder) {
   EXPECT_TRUE(result_lines({}).empty());
 }
 
+TEST(ResultLines, SayWhatPanoramasCost) {
+  std::vector<EpisodeRow> rows = two_methods();
+  rows[1].pivots = 30;
+  rows[1].simulated_s = 200.0;
+  rows[3].pivots = 50;
+  rows[3].simulated_s = 300.0;
+  EXPECT_THAT(result_lines(rows).front(), HasSubstr("episodes=2 pivots=40 seconds=250"));
+  EXPECT_THAT(report_of(rows), HasSubstr("| 0.0 | 0.0 | 30 | 40 | 250 |"));
+}
+
+TEST(EvaluationReport, SaysHowWellTheRobotSawWhereAnybodyKnows) {
+  std::vector<EpisodeRow> rows = two_methods();
+  EXPECT_THAT(report_of(rows), Not(HasSubstr("| IoU of free ground")));
+  rows[1].free_iou = 0.9;
+  rows[1].obstacle_iou = 0.5;
+  EXPECT_THAT(report_of(rows), HasSubstr("| ours | 90.0 | 50.0 |"));
+  EXPECT_THAT(report_of(rows), HasSubstr("| CMN | - | - |"));
+}
+
 TEST(EvaluationReport, HasTheFiguresAndHowTheyWereMade) {
   const std::string report = report_of(two_methods());
   for (const char* part :

@@ -190,6 +190,9 @@ TEST(JudgedEpisode, TheBoundsArriveInAFlat) {
 TEST(JudgedEpisode, TheSameSeedGivesTheSameRowForEveryMethod) {
   const Scene scene = flat();
   for (const std::string& method : method_names()) {
+    if (method_params(find_method(method), find_task("CL"), kConfig).perception.uses_depth()) {
+      continue;  // in a plane there is nothing for a camera
+    }
     for (const std::string task : {"CG", "CL", "HL"}) {
       Setting setting;
       setting.task = task;
