@@ -6,13 +6,19 @@
 #include <cmath>
 
 namespace cmn {
+namespace {
+
+/// Under the robot itself; a camera that looks ahead does not see all of it.
+constexpr double kOwnGround_m = 0.2;
+
+}  // namespace
 
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m) {
   RayProfile profile;
   const double step = 0.5 * seen.resolution;
   // The robot stands on the cells that meet in the middle. Cameras that see less than a quarter
   // leave all four of them out, at any heading, and with them the way to what they do see.
-  const double under_robot = 1.5 * seen.resolution;
+  const double under_robot = std::max(kOwnGround_m, 1.5 * seen.resolution);
   const double reach = std::min(reach_m, 0.5 * seen.side_m() - seen.resolution);
   for (int b = 0; b < kBearings; ++b) {
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b) - yaw_rad);

@@ -105,6 +105,33 @@ TEST(RayProfile, EndsAtItsReachAndWithinTheGrid) {
   }
 }
 
+TEST(RayProfile, BeginsBeyondTheGroundThatTheRobotStandsOn) {
+  // Four looks of a camera leave the corners unseen, and with them the cells about the middle.
+  LocalOccupancy seen = box();
+  const auto for_each_within = [&](double radius_m, auto&& visit) {
+    for (int iy = 0; iy < seen.size; ++iy) {
+      for (int ix = 0; ix < seen.size; ++ix) {
+        const Point2 p{(ix + 0.5 - 0.5 * seen.size) * seen.resolution,
+                       (iy + 0.5 - 0.5 * seen.size) * seen.resolution};
+        if (norm(p) < radius_m) {
+          visit(seen.index_of(ix, iy));
+        }
+      }
+    }
+  };
+  for_each_within(0.12, [&](std::size_t i) { seen.confidence[i] = 0.0F; });
+  const RayProfile whole = cast_rays(box(), 0.0, 8.0);
+  const RayProfile rays = cast_rays(seen, 0.0, 8.0);
+  for (std::size_t b = 0; b < rays.size(); ++b) {
+    EXPECT_EQ(rays[b].range_m, whole[b].range_m);
+    EXPECT_EQ(rays[b].is_hit, whole[b].is_hit);
+  }
+  for_each_within(0.5, [&](std::size_t i) { seen.confidence[i] = 0.0F; });
+  for (const Ray& ray : cast_rays(seen, 0.0, 8.0)) {
+    EXPECT_FALSE(ray.is_known());
+  }
+}
+
 TEST(RayProfile, DoesNotTurnWithTheGrid) {
   const RayProfile rays = cast_rays(box(), 0.0, 8.0);
   for (const int by : {1, 5, kBearingsPerQuarter, 20, -3}) {
