@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace cmn {
-
 namespace {
 
 /// Under the robot itself; a camera that looks ahead does not see all of it.
@@ -17,6 +16,9 @@ constexpr double kOwnGround_m = 0.2;
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m) {
   RayProfile profile;
   const double step = 0.5 * seen.resolution;
+  // The robot stands on the cells that meet in the middle. Cameras that see less than a quarter
+  // leave all four of them out, at any heading, and with them the way to what they do see.
+  const double under_robot = std::max(kOwnGround_m, 1.5 * seen.resolution);
   const double reach = std::min(reach_m, 0.5 * seen.side_m() - seen.resolution);
   for (int b = 0; b < kBearings; ++b) {
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b) - yaw_rad);
@@ -27,10 +29,10 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
       const int iy =
           static_cast<int>(std::floor(range * ahead.y / seen.resolution + 0.5 * seen.size));
       const std::size_t i = seen.index_of(ix, iy);
-      if (seen.confidence[i] <= 0.0F && range <= kOwnGround_m && ray.range_m == 0.0) {
-        continue;
-      }
       if (seen.confidence[i] <= 0.0F) {
+        if (range <= under_robot) {
+          continue;
+        }
         break;
       }
       ray.range_m = range;
@@ -38,6 +40,9 @@ RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m)
         ray.is_hit = true;
         break;
       }
+    }
+    if (!ray.is_hit && ray.range_m <= under_robot) {
+      ray.range_m = 0.0;
     }
   }
   return profile;

@@ -1,20 +1,21 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// cmd_vel -> scan, odom, TF, /clock: a base with a LiDAR in a planar world. Where the LiDAR is
-/// says robot_description, from which robot_state_publisher has the transforms that do not change.
+/// cmd_vel -> scan, depth/image, points, image, odom, TF, /clock: a base with sensors in a world.
+/// Where they are says robot_description, from which robot_state_publisher has the transforms that
+/// do not change.
 
-#include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/places.hpp"
+#include "coarse_map_nav/ros/camera_publisher.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
+#include "coarse_map_nav/ros/described_mounts.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
-#include "coarse_map_nav/simulation/robot_description.hpp"
-#include "coarse_map_nav/simulation/simulator.hpp"
+#include "coarse_map_nav/scene/scene_world.hpp"
+#include "coarse_map_nav/scene/simulated_robot.hpp"
 
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -35,15 +36,15 @@ namespace {
 using Params = cmn::NodeParams<cmn::SimulatorNodeParams>;
 
 /// The start that the parameters give. What they leave open is drawn from the seed: a place out of
-/// the world's list of starts or, without one, anywhere that the robot fits; one of four headings.
-cmn::Pose2 start_of(const cmn::SimulatorNodeParams& own, const cmn::World& world) {
+/// a map's list of starts or, without one, anywhere that the robot fits; one of four headings.
+cmn::Pose2 start_of(const cmn::SimulatorNodeParams& own, const cmn::SceneWorld& world) {
   std::mt19937 rng{own.seed};
   std::optional<cmn::Pose2> start =
-      world.random_free_pose(own.simulation.robot.radius_m + 0.05, rng);
+      cmn::World{world.body}.random_free_pose(own.simulation.robot.radius_m + 0.05, rng);
   if (!start) {
     throw std::runtime_error(own.world + ": the robot fits nowhere in this world");
   }
-  const std::vector<cmn::Point2> starts = cmn::read_starts(own.world);
+  const auto starts = world.is_map ? cmn::read_starts(own.world) : std::vector<cmn::Point2>{};
   if (!starts.empty()) {
     const cmn::Point2 place = starts[rng() % starts.size()];
     start = cmn::Pose2{place.x, place.y, start->yaw};
@@ -53,25 +54,17 @@ cmn::Pose2 start_of(const cmn::SimulatorNodeParams& own, const cmn::World& world
           std::isnan(own.start_yaw_deg) ? start->yaw : own.start_yaw_deg * cmn::kPi / 180.0};
 }
 
-/// From the parameter that robot_state_publisher reads too, sought as it does: in the namespace of
-/// the node, then further out.
-cmn::SensorMounts mounts_of(const Params& params) {
-  std::string key;
-  std::string xml;
-  if (!ros::param::search("robot_description", key) || !ros::param::get(key, xml)) {
-    throw std::runtime_error(
-        "robot_description: there is no such parameter; launch/include/robot.launch sets it");
-  }
-  return cmn::mounts_of(cmn::parse_robot_description(xml, key), params.frames.base,
-                        params.own.sensor_frames);
-}
-
 class SimulatorNode {
  public:
-  SimulatorNode(const Params& params, cmn::World world, const cmn::Pose2& start)
+  SimulatorNode(const Params& params, const cmn::SceneWorld& world, const cmn::SensorMounts& mounts)
       : params_{params},
-        simulator_{std::move(world), params.own.simulation, start, params.own.seed,
-                   cmn::seen_from_above(mounts_of(params).T_robot_lidar)} {
+        robot_{world, params.own.simulation, mounts, start_of(params.own, world), params.own.seed},
+        simulator_{robot_.simulator()} {
+    if (robot_.cameras() != nullptr) {
+      cameras_.emplace(nh_, params.own.sensor_frames, params.own.simulation.color.camera());
+    } else {
+      ROS_WARN_STREAM("there are no cameras: " << robot_.why_no_cameras());
+    }
     clock_pub_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 1);
     odom_pub_ = nh_.advertise<nav_msgs::Odometry>("odom", 10);
     scan_pub_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 2);
@@ -91,6 +84,7 @@ class SimulatorNode {
     const double step_s = 1.0 / params_.own.odometry_rate;
     ros::WallRate rate(params_.own.odometry_rate * params_.own.speed);
     double next_scan_s = 0.0;
+    double next_image_s = 0.0;
     while (ros::ok()) {
       ros::spinOnce();
       const bool is_silent = simulator_.time_s() - command_s_ > params_.own.command_timeout_s;
@@ -100,6 +94,10 @@ class SimulatorNode {
         publish_scan();
         next_scan_s += 1.0 / params_.own.scan_rate;
         diagnostics_.update();
+      }
+      if (cameras_ && simulator_.time_s() >= next_image_s) {
+        cameras_->publish(*robot_.cameras(), simulator_.truth(), stamp());
+        next_image_s += 1.0 / params_.own.camera_rate;
       }
       rate.sleep();
     }
@@ -151,7 +149,7 @@ class SimulatorNode {
     std_msgs::Header header;
     header.stamp = stamp();
     header.frame_id = params_.own.sensor_frames.laser;
-    scan_pub_.publish(cmn::message_of(simulator_.scan(), header, 1.0 / params_.own.scan_rate));
+    scan_pub_.publish(cmn::message_of(robot_.scan(), header, 1.0 / params_.own.scan_rate));
   }
 
   /// Simulated time starts here: time 0 means "no time yet" to ROS.
@@ -159,7 +157,9 @@ class SimulatorNode {
 
   ros::NodeHandle nh_;
   Params params_;
-  cmn::Simulator simulator_;
+  cmn::SimulatedRobot robot_;
+  cmn::Simulator& simulator_;  ///< the robot's
+  std::optional<cmn::CameraPublisher> cameras_;
   cmn::VelocityCommand command_;
   double command_s_ = -1e9;
   std::uint8_t was_bumped_ = 2;  // neither: the first state is always published
@@ -180,12 +180,16 @@ int main(int argc, char** argv) {
   ros::NodeHandle private_nh("~");
   const auto params = cmn::load_params_or_exit<Params>(private_nh);
   if (params.own.world.empty()) {
-    cmn::exit_with({"world: name the file of the world, for example _world:=worlds/home.yaml"});
+    cmn::exit_with({"world: name the world, for example _world:=worlds/home.yaml or house:3"});
   }
   try {
-    const cmn::World world{cmn::read_map(params.own.world)};
-    const cmn::Pose2 start = start_of(params.own, world);
-    SimulatorNode{params, world, start}.run();
+    const cmn::SceneWorld world = cmn::open_scene_world(params.own.world);
+    for (const std::string& warning : world.warnings) {
+      ROS_WARN_STREAM(warning);
+    }
+    const cmn::SensorMounts mounts =
+        cmn::described_mounts(params.frames.base, params.own.sensor_frames);
+    SimulatorNode{params, world, mounts}.run();
   } catch (const std::exception& e) {
     cmn::exit_with({e.what()});
   }

@@ -9,7 +9,9 @@
 #include <cstring>
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 
 namespace cmn {
 namespace {
@@ -139,6 +141,45 @@ std::optional<DepthImage> depth_of(const sensor_msgs::Image& image, const Camera
     return depth;
   }
   return std::nullopt;
+}
+
+sensor_msgs::CameraInfo message_of(const CameraModel& camera, const std_msgs::Header& header) {
+  sensor_msgs::CameraInfo info;
+  info.header = header;
+  info.width = static_cast<std::uint32_t>(camera.width);
+  info.height = static_cast<std::uint32_t>(camera.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+sensor_msgs::Image message_of(const DepthImage& depth, const std_msgs::Header& header) {
+  return *cv_bridge::CvImage{header, sensor_msgs::image_encodings::TYPE_32FC1, depth.depth_m}
+              .toImageMsg();
+}
+
+sensor_msgs::PointCloud2 cloud_of(const DepthImage& depth, const std_msgs::Header& header) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header;
+  sensor_msgs::PointCloud2Modifier{cloud}.setPointCloud2FieldsByString(1, "xyz");
+  cloud.width = static_cast<std::uint32_t>(depth.camera.width);
+  cloud.height = static_cast<std::uint32_t>(depth.camera.height);
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.data.resize(std::size_t{cloud.row_step} * cloud.height);
+  cloud.is_dense = 0;
+  sensor_msgs::PointCloud2Iterator<float> point{cloud, "x"};
+  for (int v = 0; v < depth.camera.height; ++v) {
+    for (int u = 0; u < depth.camera.width; ++u, ++point) {
+      const float z = depth.depth_m.at<float>(v, u);
+      point[0] = static_cast<float>((u - depth.camera.cx) / depth.camera.fx) * z;
+      point[1] = static_cast<float>((v - depth.camera.cy) / depth.camera.fy) * z;
+      point[2] = z;
+    }
+  }
+  return cloud;
 }
 
 }  // namespace cmn

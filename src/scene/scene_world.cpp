@@ -12,11 +12,22 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 namespace cmn {
 namespace {
+
+/// Each once, in their order: a texture that many surfaces lack is one thing to mend.
+std::vector<std::string> without_repeats(const std::vector<std::string>& warnings) {
+  std::set<std::string> told;
+  std::vector<std::string> kept;
+  std::copy_if(warnings.begin(), warnings.end(), std::back_inserter(kept),
+               [&](const std::string& warning) { return told.insert(warning).second; });
+  return kept;
+}
 
 SceneWorld open_house(std::uint32_t seed, const SceneWorldParams& params) {
   SceneWorld world;
@@ -60,10 +71,12 @@ SceneWorld open_scene_world(const std::string& name, const SceneWorldParams& par
   } else if (ending == ".world" || ending == ".sdf") {
     world.scene = std::make_shared<const MeshScene>(read_sdf(name, world.warnings));
   } else {
+    world.is_map = true;
     world.body = read_map(name);
     world.scene = std::make_shared<const MeshScene>(extrude(world.body));
     return world;
   }
+  world.warnings = without_repeats(world.warnings);
   SliceParams cut;
   cut.resolution_m = params.resolution_m;
   cut.band = {params.clear_m, params.robot_height_m};

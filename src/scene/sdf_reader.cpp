@@ -269,40 +269,44 @@ class SdfReader {
   }
 
   static bool add_shape(MeshScene& part, const sdf::Geometry& geometry) {
-    Eigen::Vector3f half = Eigen::Vector3f::Zero();
+    using Type = sdf::GeometryType;
     switch (geometry.Type()) {
-      case sdf::GeometryType::PLANE:
+      case Type::PLANE:
         return add_plane(part, *geometry.PlaneShape());
-      case sdf::GeometryType::SPHERE:
+      case Type::SPHERE:
         return add_ellipsoid(part, Eigen::Vector3d::Constant(geometry.SphereShape()->Radius()));
-      case sdf::GeometryType::ELLIPSOID: {
+      case Type::ELLIPSOID: {
         const auto radii = geometry.EllipsoidShape()->Radii();
         return add_ellipsoid(part, {radii.X(), radii.Y(), radii.Z()});
       }
-      case sdf::GeometryType::BOX: {
-        const auto size = geometry.BoxShape()->Size();
-        half = 0.5F * Eigen::Vector3d{size.X(), size.Y(), size.Z()}.cast<float>();
-        break;
-      }
-      case sdf::GeometryType::CYLINDER: {
-        const auto& cylinder = *geometry.CylinderShape();
-        half = Eigen::Vector3d{cylinder.Radius(), cylinder.Radius(), 0.5 * cylinder.Length()}
-                   .cast<float>();
-        break;
-      }
-      case sdf::GeometryType::CAPSULE: {
+      case Type::CAPSULE: {
         const auto& capsule = *geometry.CapsuleShape();
         return add_ellipsoid(
             part, {capsule.Radius(), capsule.Radius(), 0.5 * capsule.Length() + capsule.Radius()});
       }
+      case Type::BOX: {
+        const auto size = geometry.BoxShape()->Size();
+        return add_about_its_middle(part, {size.X(), size.Y(), size.Z()}, add_box);
+      }
+      case Type::CYLINDER: {
+        const auto& cylinder = *geometry.CylinderShape();
+        const double width = 2.0 * cylinder.Radius();
+        return add_about_its_middle(part, {width, width, cylinder.Length()}, add_cylinder);
+      }
       default:
         return false;
     }
+  }
+
+  /// `add_between`: what adds the shape that fills the box between two corners.
+  template <class AddBetween>
+  static bool add_about_its_middle(MeshScene& part, const Eigen::Vector3d& size,
+                                   const AddBetween& add_between) {
+    const Eigen::Vector3f half = (0.5 * size).cast<float>();
     if (!half.allFinite() || half.minCoeff() <= 0.0F) {
       return false;
     }
-    geometry.Type() == sdf::GeometryType::BOX ? add_box(part, -half, half, 0)
-                                              : add_cylinder(part, -half, half, 0);
+    add_between(part, -half, half, 0);
     return true;
   }
 

@@ -139,6 +139,37 @@ void for_each_part(const MeshScene& scene, double bottom_m, double top_m, const 
   }
 }
 
+/// In the scene [m].
+struct Heights {
+  explicit Heights(const SliceParams& params)
+      : floor_m{params.floor_m},
+        bottom_m{params.floor_m + params.band.bottom_m},
+        top_m{params.floor_m + params.band.top_m + kHair_m} {}
+  double floor_m;
+  double bottom_m;
+  double top_m;
+};
+
+/// Around what stands within the heights, or around the floor where nothing does. Throws
+/// std::runtime_error when there is neither.
+Eigen::AlignedBox2d area_of(const MeshScene& scene, const Heights& heights) {
+  Eigen::AlignedBox2d area;
+  const auto extend = [&](const Polygon& part) {
+    for (const Eigen::Vector3d& p : part) {
+      area.extend(p.head<2>());
+    }
+  };
+  for_each_part(scene, heights.bottom_m, heights.top_m, extend);
+  if (area.isEmpty()) {
+    for_each_part(scene, heights.floor_m - kUneven_m, heights.bottom_m, extend);
+  }
+  if (area.isEmpty()) {
+    throw std::runtime_error("the scene has no floor at height " + std::to_string(heights.floor_m) +
+                             " m");
+  }
+  return {area.min().array() - kMargin_m, area.max().array() + kMargin_m};
+}
+
 /// The piece of `open` cells that holds `inside`, else the largest closed one; 0: none.
 int piece_of(const cv::Mat& open, const cv::Mat& pieces, const cv::Mat& stats,
              const std::optional<Cell>& inside) {
@@ -163,51 +194,43 @@ int piece_of(const cv::Mat& open, const cv::Mat& pieces, const cv::Mat& stats,
   return best;
 }
 
-}  // namespace
-
-CoarseMap slice(const MeshScene& scene, const SliceParams& params) {
-  const double bottom_m = params.floor_m + params.band.bottom_m;
-  const double top_m = params.floor_m + params.band.top_m + kHair_m;
-  Eigen::AlignedBox2d area;
-  const auto extend = [&](const Polygon& part) {
-    for (const Eigen::Vector3d& p : part) {
-      area.extend(p.head<2>());
-    }
-  };
-  for_each_part(scene, bottom_m, top_m, extend);
-  if (area.isEmpty()) {
-    for_each_part(scene, params.floor_m - kUneven_m, bottom_m, extend);
-  }
-  if (area.isEmpty()) {
-    throw std::runtime_error("the scene has no floor at height " + std::to_string(params.floor_m) +
-                             " m");
-  }
-  area = {area.min().array() - kMargin_m, area.max().array() + kMargin_m};
-  Raster blocked{area, params.resolution_m};
-  Raster floor{area, params.resolution_m};
-  for_each_part(scene, bottom_m, top_m, [&](const Polygon& part) { blocked.set(part); });
-  for_each_part(scene, params.floor_m - kUneven_m, std::max(params.floor_m, bottom_m - kTouch_m),
-                [&](const Polygon& part) { floor.set(part); });
-  const cv::Mat open = floor.cells() & ~blocked.cells();
+/// 0 in the piece that is meant, 1 elsewhere. Throws std::runtime_error when there is none.
+Grid<std::uint8_t> pieces_closed(const cv::Mat& open, const std::optional<Cell>& inside) {
   cv::Mat pieces;
   cv::Mat stats;
   cv::Mat middles;
   cv::connectedComponentsWithStats(open, pieces, stats, middles, 4, CV_32S);
-  std::optional<Cell> inside;
-  if (params.inside) {
-    inside = blocked.cell_of(*params.inside);
-  }
   const int piece = piece_of(open, pieces, stats, inside);
   if (piece == 0) {
     throw std::runtime_error("the scene has no free floor" +
-                             std::string{params.inside ? " at the point that is meant" : ""});
+                             std::string{inside ? " at the point that is meant" : ""});
   }
   Grid<std::uint8_t> grid{open.cols, open.rows, 1};
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Cell c = grid.cell_at(i);
     grid[i] = pieces.at<std::int32_t>(c.y, c.x) == piece ? 0 : 1;
   }
-  return {std::move(grid), params.resolution_m, blocked.T_world_grid()};
+  return grid;
+}
+
+}  // namespace
+
+CoarseMap slice(const MeshScene& scene, const SliceParams& params) {
+  const Heights heights{params};
+  const Eigen::AlignedBox2d area = area_of(scene, heights);
+  Raster blocked{area, params.resolution_m};
+  Raster floor{area, params.resolution_m};
+  for_each_part(scene, heights.bottom_m, heights.top_m,
+                [&](const Polygon& part) { blocked.set(part); });
+  for_each_part(scene, heights.floor_m - kUneven_m,
+                std::max(heights.floor_m, heights.bottom_m - kTouch_m),
+                [&](const Polygon& part) { floor.set(part); });
+  std::optional<Cell> inside;
+  if (params.inside) {
+    inside = blocked.cell_of(*params.inside);
+  }
+  return {pieces_closed(floor.cells() & ~blocked.cells(), inside), params.resolution_m,
+          blocked.T_world_grid()};
 }
 
 }  // namespace cmn

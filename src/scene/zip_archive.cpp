@@ -44,8 +44,11 @@ std::vector<std::uint8_t> ZipArchive::read(const std::string& file) const {
   }
   const std::unique_ptr<zip_file_t, CloseFile> opened{zip_fopen(archive_.get(), file.c_str(), 0)};
   std::vector<std::uint8_t> bytes(about.size);
-  if (!opened || zip_fread(opened.get(), bytes.data(), bytes.size()) !=
-                     static_cast<zip_int64_t>(bytes.size())) {
+  std::uint8_t beyond = 0;  // only who asks for more is told that the sum is off
+  if (!opened ||
+      zip_fread(opened.get(), bytes.data(), bytes.size()) !=
+          static_cast<zip_int64_t>(bytes.size()) ||
+      zip_fread(opened.get(), &beyond, 1) != 0) {
     return {};
   }
   return bytes;

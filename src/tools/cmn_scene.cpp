@@ -125,7 +125,8 @@ po::options_description options() {
       "height", po::value<double>()->default_value(0.6), "of the cameras [m]")(
       "tilt", po::value<double>()->default_value(10.0), "of the cameras, downwards [deg]")(
       "seed", po::value<std::uint32_t>()->default_value(1),
-      "of the place that is drawn, and noise")("boxes", "houses without meshes of furniture");
+      "of the place that is drawn, and noise")("boxes", "houses without meshes of furniture")(
+      "maps-only", "no pictures");
   return options;
 }
 
@@ -203,8 +204,10 @@ int run(int argc, char** argv) {
   plane.band = {given["lidar-height"].as<double>(), given["lidar-height"].as<double>()};
   cmn::write_map(folder + "/lidar.yaml", cmn::slice(*world.scene, plane));
   std::cout << folder << "/body.yaml\n" << folder << "/lidar.yaml\n";
-  write_picture(folder + "/above.png", seen_from_above(*world.scene, world.body, 1.8));
-  write_views(given, world, folder);
+  if (given.count("maps-only") == 0) {
+    write_picture(folder + "/above.png", seen_from_above(*world.scene, world.body, 1.8));
+    write_views(given, world, folder);
+  }
   return EXIT_SUCCESS;
 }
 

@@ -33,9 +33,10 @@ TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
     std::string says;
   };
   const std::vector<Case> cases{
-      {{}, "world: name the file"},
+      {{}, "world: name the world"},
       {{"_world:=/nowhere/world.yaml"}, "/nowhere/world.yaml"},
       {{"_world:=" + solid}, solid},
+      {{"_world:=house:x"}, "house:x: a house has a number"},
       {{kWorld, kBase, "_start_x:=0.01", "_start_y:=0.01"}, "obstacle"},
       {{kWorld, kBase, "_start_x:=-50.0", "_start_y:=2.0"}, "obstacle"},
       {{kWorld, "_laser_frame:=lidar", "_depth_frame:=eye"},
@@ -44,6 +45,8 @@ TEST(Simulator, RefusesWorldsAndStartsThatCannotBe) {
        "lidar; has no link eye"},
       {{kWorld, kBase, "robot_description:=nowhere"}, "robot_description: there is no such"},
       {{kWorld, "_speed:=0.0", "_scan_rate:=0.0"}, "scan_rate: 0 is outside"},
+      {{kWorld, "_speed:=0.0", "_simulation/depth/width:=0"},
+       "simulation/depth/width: 0 is outside"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.says);

@@ -24,8 +24,9 @@ struct Ray {
 using RayProfile = std::array<Ray, kBearings>;
 
 /// Casts rays through a local occupancy grid whose x axis has yaw `yaw_rad` in the frame of the
-/// profile. A ray ends at the first cell seen to be occupied, at the first that was not seen (but
-/// for those that the robot stands on), or at `reach_m`. Whatever sensor filled the grid, the profile looks the same.
+/// profile. A ray ends at the first cell seen to be occupied, at the first that was not seen, or at
+/// `reach_m`. Whatever sensor filled the grid, the profile looks the same. The cells under the
+/// robot itself need not have been seen, and tell nothing by themselves.
 RayProfile cast_rays(const LocalOccupancy& seen, double yaw_rad, double reach_m);
 
 }  // namespace cmn

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Messages of depth cameras -> core types. What is malformed comes back empty, with a reason.
+/// Messages of depth cameras <-> core types. What is malformed comes back empty, with a reason.
 #pragma once
 
 #include "coarse_map_nav/data/camera.hpp"
@@ -15,6 +15,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
 
 namespace cmn {
 
@@ -32,5 +33,11 @@ std::optional<CameraModel> camera_of(const sensor_msgs::CameraInfo& info, std::s
 /// 16UC1 in millimetres or 32FC1 in metres, as REP-118 has it, copied.
 std::optional<DepthImage> depth_of(const sensor_msgs::Image& image, const CameraModel& camera,
                                    const Eigen::Isometry3d& T_robot_camera, std::string& why);
+
+sensor_msgs::CameraInfo message_of(const CameraModel& camera, const std_msgs::Header& header);
+/// 32FC1 in metres; holes are NaN.
+sensor_msgs::Image message_of(const DepthImage& depth, const std_msgs::Header& header);
+/// A point a pixel, in their order: x, y, z of float32 in the optical frame; holes are NaN.
+sensor_msgs::PointCloud2 cloud_of(const DepthImage& depth, const std_msgs::Header& header);
 
 }  // namespace cmn

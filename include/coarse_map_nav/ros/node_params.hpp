@@ -7,8 +7,8 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/localization/update_gate.hpp"
 #include "coarse_map_nav/params.hpp"
+#include "coarse_map_nav/scene/simulated_robot.hpp"
 #include "coarse_map_nav/simulation/robot_description.hpp"
-#include "coarse_map_nav/simulation/simulator.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -37,12 +37,14 @@ struct SimulatorNodeParams {
   double speed = 1.0;
   double odometry_rate = 50.0;
   double scan_rate = 10.0;
+  double camera_rate = 5.0;
   double command_timeout_s = 0.6;
   SensorFrameParams sensor_frames;
-  SimulationParams simulation;
+  SimulatedRobotParams simulation;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit("world", self.world, Anything{}, "file of the metric world, map_server yaml");
+    visit("world", self.world, Anything{},
+          "what it drives in: a map (map_server yaml), a Gazebo world (.world, .sdf), house:SEED");
     visit("start_x", self.start_x, Between{-1e6, 1e6}, "[m] start; nan: drawn from the seed");
     visit("start_y", self.start_y, Between{-1e6, 1e6}, "[m] start; nan: drawn from the seed");
     visit("start_yaw_deg", self.start_yaw_deg, Between{-360.0, 360.0},
@@ -51,6 +53,8 @@ struct SimulatorNodeParams {
     visit("speed", self.speed, Between{0.1, 100.0}, "[-] simulated over real time");
     visit("odometry_rate", self.odometry_rate, Between{5.0, 500.0}, "[Hz] odom, TF and /clock");
     visit("scan_rate", self.scan_rate, Between{0.5, 100.0}, "[Hz] scan");
+    visit("camera_rate", self.camera_rate, Between{0.5, 100.0},
+          "[Hz] depth/image, points, image and their camera_info, while somebody listens");
     visit("command_timeout_s", self.command_timeout_s, Between{0.05, 10.0},
           "[s] the base stops when cmd_vel is silent for so long (Kobuki: 0.6)");
     SensorFrameParams::visit_params(self.sensor_frames, visit);

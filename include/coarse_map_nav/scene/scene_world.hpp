@@ -27,7 +27,8 @@ struct SceneWorldParams {
 struct SceneWorld {
   std::shared_ptr<const MeshScene> scene;
   CoarseMap body;                     ///< free: where a robot's body can be
-  std::vector<std::string> warnings;  ///< what was survived, a sentence each
+  bool is_map = false;                ///< read as one, and all of its walls are alike
+  std::vector<std::string> warnings;  ///< what was survived, a sentence each, each once
 };
 
 /// The seed of house:SEED. None: not such a name. Throws std::runtime_error when SEED is no number

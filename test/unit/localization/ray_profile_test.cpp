@@ -68,6 +68,29 @@ TEST(RayProfile, OfAnUnseenPlaceNothingIsKnown) {
   }
 }
 
+TEST(RayProfile, LeavesTheCellsUnderTheRobotUnasked) {
+  // Four looks of less than a quarter, as of a narrow camera, leave the diagonals unseen.
+  LocalOccupancy seen = box();
+  for (int iy = 0; iy < seen.size; ++iy) {
+    for (int ix = 0; ix < seen.size; ++ix) {
+      const double bearing = std::atan2(iy + 0.5 - 80, ix + 0.5 - 80);
+      if (std::abs(std::remainder(bearing, kPi / 2.0)) > 0.6) {
+        seen.confidence[seen.index_of(ix, iy)] = 0.0F;
+      }
+    }
+  }
+  const RayProfile rays = cast_rays(seen, 0.0, 8.0);
+  for (const int b : {0, 9, 18, 27}) {
+    SCOPED_TRACE("bearing " + std::to_string(b));
+    const Ray ray = rays[static_cast<std::size_t>(b)];
+    EXPECT_TRUE(ray.is_hit);
+    EXPECT_NEAR(ray.range_m, wall_of_box(bearing_rad(b)), kCell_m);
+  }
+  for (const int b : {4, 5, 13, 14}) {
+    EXPECT_FALSE(rays[static_cast<std::size_t>(b)].is_known()) << "bearing " << b;
+  }
+}
+
 TEST(RayProfile, EndsAtItsReachAndWithinTheGrid) {
   const RayProfile near = cast_rays(box(), 0.0, 0.8);
   for (const Ray& ray : near) {

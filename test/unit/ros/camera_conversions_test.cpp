@@ -205,5 +205,60 @@ TEST(PanoramaStrip, ShowsLeftAheadRightAndBehindInTheOrderInWhichTheyAreSeen) {
   EXPECT_TRUE(panorama_of(images, 1.0).empty());
 }
 
+/// 4 x 3 pixels, one of them a hole.
+DepthImage small_depth() {
+  DepthImage depth;
+  depth.camera = CameraModel::from_field_of_view(4, 3, 1.2);
+  depth.depth_m = (cv::Mat_<float>(3, 4) << 1, 2, 3, 4, 5, NAN, 7, 8, 9, 10, 11, 12);
+  return depth;
+}
+
+TEST(CameraConversion, WhatASimulatedCameraSendsIsReadAsItWas) {
+  const DepthImage depth = small_depth();
+  std_msgs::Header header;
+  header.stamp = ros::Time{3.5};
+  header.frame_id = "eye";
+  std::string why;
+  const auto camera = camera_of(message_of(depth.camera, header), why);
+  ASSERT_TRUE(camera) << why;
+  EXPECT_EQ(camera->fx, depth.camera.fx);
+  EXPECT_EQ(camera->cy, depth.camera.cy);
+  const sensor_msgs::Image image = message_of(depth, header);
+  EXPECT_EQ(image.header.frame_id, "eye");
+  const auto read = depth_of(image, *camera, kMount, why);
+  ASSERT_TRUE(read) << why;
+  EXPECT_EQ(read->stamp_s, 3.5);
+  for (int i = 0; i < 12; ++i) {
+    const float z = depth.depth_m.ptr<float>()[i];
+    EXPECT_TRUE(std::isnan(z) ? std::isnan(read->depth_m.ptr<float>()[i])
+                              : read->depth_m.ptr<float>()[i] == z);
+  }
+}
+
+TEST(CameraConversion, TheCloudOfADepthImageHasItsPixelsPoints) {
+  const DepthImage depth = small_depth();
+  const sensor_msgs::PointCloud2 cloud = cloud_of(depth, {});
+  std::string why;
+  const auto view = view_of(cloud, kMount, why);
+  ASSERT_TRUE(view) << why;
+  ASSERT_EQ(view->width, 4U);
+  ASSERT_EQ(view->height, 3U);
+  for (std::size_t v = 0; v < 3; ++v) {
+    for (std::size_t u = 0; u < 4; ++u) {
+      const std::uint8_t* point = view->data + v * view->row_step + u * view->point_step;
+      const float z = depth.depth_m.at<float>(static_cast<int>(v), static_cast<int>(u));
+      if (std::isnan(z)) {
+        EXPECT_TRUE(std::isnan(coordinate_of(point, view->x)));
+        continue;
+      }
+      EXPECT_EQ(coordinate_of(point, view->z), z);
+      EXPECT_NEAR(coordinate_of(point, view->x),
+                  (static_cast<double>(u) - depth.camera.cx) / depth.camera.fx * z, 1e-5);
+      EXPECT_NEAR(coordinate_of(point, view->y),
+                  (static_cast<double>(v) - depth.camera.cy) / depth.camera.fy * z, 1e-5);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cmn
