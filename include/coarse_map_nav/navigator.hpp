@@ -20,11 +20,12 @@ class Navigator {
  public:
   Navigator(const CoarseMap& map, const NavigatorParams& params)
       : Navigator{map, params, make_localizer(map, params.localization)} {}
-  /// With a localizer of the caller's.
+  /// With a localizer of the caller's, and what predicts of the perception source "rgb".
   Navigator(const CoarseMap& map, const NavigatorParams& params,
-            std::unique_ptr<Localizer> localizer)
+            std::unique_ptr<Localizer> localizer,
+            std::shared_ptr<OccupancyPredictor> predictor = nullptr)
       : params_{params},
-        perception_{params.perception},
+        perception_{params.perception, std::move(predictor)},
         localizer_{std::move(localizer)},
         planner_{map, params.planning} {}
 

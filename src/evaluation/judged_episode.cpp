@@ -159,7 +159,8 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
                               const Route& route, const Method& method, NavigatorParams params,
                               const JudgeParams& judge, const EpisodeKey& key,
                               const std::function<double()>& clock_s,
-                              const EpisodeRecorder& recorder) {
+                              const EpisodeRecorder& recorder,
+                              std::shared_ptr<OccupancyPredictor> predictor) {
   std::mt19937_64 rng{key.seed};
   const auto seed = [&rng] { return static_cast<std::uint32_t>(rng()); };
   params.localization.seed = seed();
@@ -188,7 +189,7 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   std::unique_ptr<Localizer> owned = localizer_for(method, task, given.map, params.localization,
                                                    given.from_world(route.T_world_start));
   auto* told = dynamic_cast<GivenPose*>(owned.get());
-  Navigator navigator{given.map, params, std::move(owned)};
+  Navigator navigator{given.map, params, std::move(owned), std::move(predictor)};
 
   Judge the_judge{judge, route, key, task.kidnaps};
   EpisodeRow& row = the_judge.row();

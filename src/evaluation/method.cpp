@@ -20,6 +20,8 @@ const std::vector<Method>& methods() {
     depth_rolling.has_shared_planner = false;
     Method fused{"fused", "fused.yaml"};
     fused.has_shared_planner = false;
+    Method rgb_rolling{"rgb_rolling", "rgb_rolling.yaml"};
+    rgb_rolling.has_shared_planner = false;
     Method cmn{"cmn", "cmn_tree.yaml"};
     cmn.knows_heading = cmn.ends_by_judge = true;
     Method robb{"robb", "cmn.yaml"};
@@ -37,8 +39,8 @@ const std::vector<Method>& methods() {
     Method oracle{"oracle", "rolling.yaml"};
     oracle.knows_pose = oracle.plans_on_world = true;
     oracle.has_shared_planner = false;
-    return std::vector<Method>{ours, rolling, depth_rolling, fused,     cmn,   robb,
-                               mcse, rmn,     rnd,           true_pose, oracle};
+    return std::vector<Method>{ours, rolling, depth_rolling, fused, rgb_rolling, cmn,
+                               robb, mcse,    rmn,           rnd,   true_pose,   oracle};
   }();
   return kMethods;
 }
@@ -150,8 +152,9 @@ NavigatorParams method_params(const Method& method, const Task& task,
   if (task.has_paper_setting) {
     params.perception.guard.type = "none";
   }
-  if (task.observation == ObservationKind::kDepthPanorama) {
-    params.perception.source = "depth";
+  const bool is_in_color = task.observation == ObservationKind::kColorPanorama;
+  if (is_in_color || task.observation == ObservationKind::kDepthPanorama) {
+    params.perception.source = is_in_color ? "rgb" : "depth";
     params.perception.accumulate = "panorama";
     params.perception.accumulate_local_map = "rolling";
     params.localization.scaled.compass.drift_per_look_deg = 2.0;

@@ -14,6 +14,8 @@ const std::vector<Task>& tasks() {
   using O = ObservationKind;
   static const std::vector<Task> kTasks{
       {"CG", D::kCoarseGrid, O::kTrueCrop, true, true},
+      {"CI", D::kCoarseGrid, O::kColorPanorama, true, true},
+      {"HD", D::kHandDrawn, O::kColorPanorama, true, true},
       {"CL", D::kCoarseGrid, O::kLidar, false, false},
       {"CD", D::kCoarseGrid, O::kDepthPanorama, false, false},
       {"CF", D::kCoarseGrid, O::kForward, false, false},
@@ -53,7 +55,10 @@ Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, d
     case DrawingKind::kCoarseGrid:
       break;
   }
-  return coarse_grid(world, mpp, task.has_paper_setting ? radius_m : 0.0);
+  // The crop is seen on the drawing itself; other looks see what stands in the world.
+  const bool is_of_middle =
+      task.has_paper_setting && task.observation == ObservationKind::kTrueCrop;
+  return coarse_grid(world, mpp, is_of_middle ? radius_m : 0.0);
 }
 
 }  // namespace cmn

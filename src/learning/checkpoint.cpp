@@ -38,6 +38,26 @@ torch::Tensor numbers_tensor(const TrainingState& state) {
       torch::kDouble);
 }
 
+/// The file, and whose it is. Throws std::runtime_error when it is no checkpoint.
+torch::IValue open_checkpoint(const std::string& path, torch::serialize::InputArchive& archive) {
+  torch::IValue identity;
+  try {
+    archive.load_from(path);
+    archive.read("identity", identity);
+  } catch (const std::exception&) {
+    throw std::runtime_error(path +
+                             ": is no checkpoint, or is damaged; without it, the training "
+                             "starts anew");
+  }
+  return identity;
+}
+
+void load_net(torch::serialize::InputArchive& archive, PredictorNet& net) {
+  torch::serialize::InputArchive part;
+  archive.read("net", part);
+  net.load(part);
+}
+
 }  // namespace
 
 void save_checkpoint(const std::string& path, const std::string& identity, PredictorNet& net,
@@ -64,23 +84,13 @@ void save_checkpoint(const std::string& path, const std::string& identity, Predi
 TrainingState load_checkpoint(const std::string& path, const std::string& identity,
                               PredictorNet& net, torch::optim::Adam& adam) {
   torch::serialize::InputArchive archive;
-  torch::IValue found;
-  try {
-    archive.load_from(path);
-    archive.read("identity", found);
-  } catch (const std::exception&) {
-    throw std::runtime_error(path +
-                             ": is no checkpoint, or is damaged; without it, the training "
-                             "starts anew");
-  }
+  const torch::IValue found = open_checkpoint(path, archive);
   if (!found.isString() || found.toStringRef() != identity) {
     throw std::runtime_error(path + ": belongs to a training with other settings (" +
                              (found.isString() ? found.toStringRef() : "?") + "), not to " +
                              identity + "; take another folder");
   }
-  torch::serialize::InputArchive part;
-  archive.read("net", part);
-  net.load(part);
+  load_net(archive, net);
   torch::serialize::InputArchive adam_part;
   archive.read("adam", adam_part);
   adam.load(adam_part);
@@ -96,6 +106,16 @@ TrainingState load_checkpoint(const std::string& path, const std::string& identi
           at[4],
           static_cast<int>(at[5]),
           rows_of(rows)};
+}
+
+void load_weights(const std::string& path, PredictorNet& net) {
+  torch::serialize::InputArchive archive;
+  open_checkpoint(path, archive);
+  try {
+    load_net(archive, net);
+  } catch (const std::exception&) {
+    throw std::runtime_error(path + ": is a checkpoint of another network");
+  }
 }
 
 }  // namespace cmn

@@ -34,4 +34,8 @@ void save_checkpoint(const std::string& path, const std::string& identity, Predi
 TrainingState load_checkpoint(const std::string& path, const std::string& identity,
                               PredictorNet& net, torch::optim::Adam& adam);
 
+/// The weights alone. Throws std::runtime_error naming the file when it is damaged or of another
+/// network.
+void load_weights(const std::string& path, PredictorNet& net);
+
 }  // namespace cmn

@@ -3,7 +3,9 @@
 #include "coarse_map_nav/learning/example_renderer.hpp"
 
 #include "coarse_map_nav/data/random.hpp"
-#include "coarse_map_nav/perception/occupancy_predictor.hpp"
+#include "coarse_map_nav/perception/depth_projection.hpp"
+#include "coarse_map_nav/perception/panorama.hpp"
+#include "coarse_map_nav/scene/depth_camera.hpp"
 #include "coarse_map_nav/scene/slice.hpp"
 
 #include <algorithm>
@@ -72,6 +74,11 @@ cv::Mat filled_by(double view_rad, double tilt_rad) {
   return filled;
 }
 
+/// The robot turned to where view k looks.
+Pose2 turned_to(const Pose2& pose, std::size_t k) {
+  return {pose.x, pose.y, wrap_angle(pose.yaw + static_cast<double>(k) * kPi / 2.0)};
+}
+
 }  // namespace
 
 ExampleRenderer::ExampleRenderer(MeshScene scene, const ExampleParams& params, std::uint64_t seed)
@@ -123,13 +130,17 @@ cv::Mat ExampleRenderer::square_at(const Pose2& pose, const cv::Mat& map, int si
   return square;  // kTruthOccupied is 1
 }
 
-cv::Mat ExampleRenderer::view_at(const Pose2& pose, const Example& example, double forward_m,
-                                 ColorCamera& camera) {
-  const double error_rad = params_.pose_error_deg * kPi / 180.0;
+Eigen::Isometry3d ExampleRenderer::T_robot_camera(double left_rad, double up_rad) const {
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();
-  T_robot_camera.translation() = Eigen::Vector3d{forward_m, 0.0, example.camera_height_m};
-  T_robot_camera.linear() = looking(error_rad * draw_normal(rng_), error_rad * draw_normal(rng_));
-  return camera.take(*caster_, in_space(pose) * T_robot_camera);
+  T_robot_camera.translation() = Eigen::Vector3d{forward_m_, 0.0, height_m_};
+  T_robot_camera.linear() = looking(left_rad, up_rad);
+  return T_robot_camera;
+}
+
+cv::Mat ExampleRenderer::view_at(const Pose2& pose, ColorCamera& camera) {
+  const double error_rad = params_.pose_error_deg * kPi / 180.0;
+  return camera.take(*caster_, in_space(pose) * T_robot_camera(error_rad * draw_normal(rng_),
+                                                               error_rad * draw_normal(rng_)));
 }
 
 void ExampleRenderer::finish(Example& example) {
@@ -165,11 +176,13 @@ Example ExampleRenderer::next() {
   color.exposure_stops = uniform(-params_.most_exposure_stops, params_.most_exposure_stops);
   color.noise = uniform(0.0, params_.most_noise);
   ColorCamera camera{color, static_cast<std::uint32_t>(rng_())};
-  const double forward_m = uniform(0.0, params_.most_forward_m);
+  forward_m_ = uniform(0.0, params_.most_forward_m);
+  pose_ = pose;
+  height_m_ = static_cast<double>(example.camera_height_m);
+  tilt_rad_ = static_cast<double>(example.tilt_rad);
+  view_rad_ = static_cast<double>(example.view_rad);
   for (std::size_t k = 0; k < kViewCount; ++k) {
-    const Pose2 looking_pose{pose.x, pose.y,
-                             wrap_angle(pose.yaw + static_cast<double>(k) * kPi / 2.0)};
-    example.panorama.views[k] = view_at(looking_pose, example, forward_m, camera);
+    example.panorama.views[k] = view_at(turned_to(pose, k), camera);
   }
   finish(example);
   example.near = square_at(pose, occupied_, kNearSize, kNearSide_m);
@@ -177,6 +190,32 @@ Example ExampleRenderer::next() {
   mark_seen(example.near, kNearSide_m, example.view_rad);
   mark_seen(example.wide, kWideSide_m, example.view_rad);
   return example;
+}
+
+PredictedOccupancy ExampleRenderer::last_by_depth() {
+  DepthCameraParams faults;
+  faults.width = faults.height = 320;
+  faults.field_of_view_deg = view_rad_ * 180.0 / kPi;
+  DepthCamera camera{faults, static_cast<std::uint32_t>(height_m_ * 1e6)};
+  DepthParams how;
+  how.highest_m = params_.band_top_m;
+  DepthProjector depth{how};
+  RangeProjector near{{kNearSize, kNearSide_m, 0.0}};
+  RangeProjector wide{{kWideSize, kWideSide_m, 0.0}};
+  Panorama near_round{PanoramaParams{}};
+  Panorama wide_round{PanoramaParams{}};
+  PredictedOccupancy seen;
+  for (std::size_t k = kViewCount; k-- > 0;) {  // the view ahead is the last
+    DepthImage image;
+    image.camera = camera.camera();
+    image.T_robot_camera = T_robot_camera(0.0, -tilt_rad_);
+    image.depth_m = camera.take(*caster_, in_space(turned_to(pose_, k)) * image.T_robot_camera);
+    const RangeScan scan = depth.scan(image);
+    const Pose2 T_odom_robot{0.0, 0.0, wrap_angle(static_cast<double>(k) * kPi / 2.0)};
+    seen.near = near_round.fuse(near.project(scan), T_odom_robot);
+    seen.wide = wide_round.fuse(wide.project(scan), T_odom_robot);
+  }
+  return seen;
 }
 
 }  // namespace cmn

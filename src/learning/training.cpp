@@ -82,6 +82,9 @@ LocalOccupancy predicted_square(const torch::Tensor& logits, double side_m) {
 std::string identity_of(const TrainingJob& job) {
   std::ostringstream text;
   text << "seed: " << job.seed << ", examples: " << job.data;
+  if (!job.start_from.empty()) {
+    text << ", start_from: " << job.start_from;
+  }
   for (const ParamDoc& param : list_params(job.params)) {
     text << ", " << param.path << ": " << param.default_value;
   }
@@ -107,6 +110,8 @@ class Trainer {
                                       .weight_decay(job.params.weight_decay)} {
     if (std::filesystem::exists(checkpoint_path())) {
       state_ = load_checkpoint(checkpoint_path(), identity_of(job_), *net_, adam_);
+    } else if (!job.start_from.empty()) {
+      load_weights(job.start_from, *net_);
     }
   }
 

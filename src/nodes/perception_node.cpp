@@ -3,8 +3,10 @@
 /// \file
 /// sensors -> local occupancy, and whether the way ahead is blocked.
 
+#include "coarse_map_nav/learning/torch_predictor.hpp"
 #include "coarse_map_nav/motion/rest_detector.hpp"
 #include "coarse_map_nav/perception/perception.hpp"
+#include "coarse_map_nav/ros/color_input.hpp"
 #include "coarse_map_nav/ros/contact_input.hpp"
 #include "coarse_map_nav/ros/depth_input.hpp"
 #include "coarse_map_nav/ros/node.hpp"
@@ -12,10 +14,13 @@
 #include "coarse_map_nav/ros/panorama_strip.hpp"
 #include "coarse_map_nav/ros/percept_publisher.hpp"
 #include "coarse_map_nav/ros/scan_input.hpp"
+#include "coarse_map_nav/ros/scan_memory.hpp"
 #include "coarse_map_nav/ros/tf_lookup.hpp"
 
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include <ros/ros.h>
@@ -24,12 +29,24 @@
 
 namespace {
 
+/// Null where the source needs none. A file that is no network ends the process.
+std::shared_ptr<cmn::OccupancyPredictor> predictor_or_exit(const cmn::PerceptionParams& params) {
+  if (!params.uses_color()) {
+    return nullptr;
+  }
+  try {
+    return cmn::load_predictor(params.rgb.model);
+  } catch (const std::runtime_error& e) {
+    cmn::exit_with({std::string{"perception/rgb/model: "} + e.what()});
+  }
+}
+
 class PerceptionNode {
  public:
   PerceptionNode()
       : params_{cmn::load_params_or_exit<cmn::NodeParams<cmn::PerceptionNodeParams>>(
             ros::NodeHandle("~"))},
-        perception_{perception_params()},
+        perception_{perception_params(), predictor_or_exit(perception_params())},
         publisher_{nh_, params_.navigator.planning.step_m} {
     diagnostics_.setHardwareID("none");
     if (perception_params().uses_scan()) {
@@ -42,6 +59,11 @@ class PerceptionNode {
                      [this](const auto& data, const auto& header) { on_depth(data, header); });
       diagnostics_.add("depth", &depth_->monitor(), &cmn::InputMonitor::report);
       diagnostics_.add("floor", this, &PerceptionNode::report_floor);
+    }
+    if (perception_params().uses_color()) {
+      color_.emplace(nh_, tf_buffer_, params_.frames, params_.own.image_timeout_s,
+                     [this](const auto& image, const auto& header) { on_color(image, header); });
+      diagnostics_.add("image", &color_->monitor(), &cmn::InputMonitor::report);
     }
     if (is_panorama_) {
       strip_.emplace(nh_);
@@ -56,44 +78,37 @@ class PerceptionNode {
   void on_scan(const cmn::RangeScan& scan, const std_msgs::Header& header) {
     cmn::SensorData data;
     data.scan = &scan;
-    if (!depth_) {
+    if (!depth_ && !color_) {
       look(data, header, scans_->monitor());
-    } else {  // it guards, and waits for the depth camera
+    } else {  // it guards, and waits for the camera
       publisher_.publish_guard(perception_.clear_ahead_m(data));
-      last_scan_ = scan;
+      last_scan_.keep(scan);
     }
   }
 
   void on_depth(const cmn::SensorData& depth, const std_msgs::Header& header) {
-    cmn::SensorData data = depth;
+    look_with_scan(depth, header, depth_->monitor());
+  }
+
+  void on_color(const cmn::ColorImage& image, const std_msgs::Header& header) {
+    cmn::SensorData data;
+    data.color = &image;
+    look_with_scan(data, header, color_->monitor());
+  }
+
+  /// A look of a camera, with the LiDAR beside it.
+  void look_with_scan(cmn::SensorData data, const std_msgs::Header& header,
+                      cmn::InputMonitor& camera) {
     std::optional<cmn::RangeScan> scan;
     if (scans_) {
-      if (!(scan = scan_at(header))) {
+      std::string why;
+      if (!(scan = last_scan_.at(header.stamp, why))) {
+        camera.dropped(why);
         return;
       }
       data.scan = &*scan;
     }
-    look(data, header, depth_->monitor());
-  }
-
-  /// The last scan as seen from where the robot was at the header's time.
-  std::optional<cmn::RangeScan> scan_at(const std_msgs::Header& header) {
-    if (!last_scan_ || std::abs(last_scan_->stamp_s - header.stamp.toSec()) > kSameTime_s) {
-      depth_->monitor().dropped("no scan of about the same time");
-      return std::nullopt;
-    }
-    std::string why;
-    const auto& frames = params_.frames;
-    const auto then =
-        cmn::lookup(tf_buffer_, frames.odom, frames.base, ros::Time(last_scan_->stamp_s), why);
-    const auto now = cmn::lookup(tf_buffer_, frames.odom, frames.base, header.stamp, why);
-    if (!then || !now) {
-      depth_->monitor().dropped(why);
-      return std::nullopt;
-    }
-    cmn::RangeScan scan = *last_scan_;
-    scan.T_robot_sensor = cmn::inverse(*now) * *then * scan.T_robot_sensor;
-    return scan;
+    look(data, header, camera);
   }
 
   void look(const cmn::SensorData& data, std_msgs::Header header, cmn::InputMonitor& input) {
@@ -122,7 +137,7 @@ class PerceptionNode {
     // Both views of a panorama are made of the same looks.
     cmn::Percept percept =
         perception_.look(data, T_odom_robot, is_panorama_ || publisher_.has_map_listener());
-    if (percept.beams.used == 0 && !depth_) {
+    if (percept.beams.used == 0 && !depth_ && !color_) {
       input.dropped("no range of the scan is usable");
       return;
     }
@@ -151,24 +166,23 @@ class PerceptionNode {
     status.add("isolated", report.isolated);
   }
 
-  /// A scan is joined to a look of the depth camera that is so little older or newer.
-  static constexpr double kSameTime_s = 0.5;
-
   ros::NodeHandle nh_;
   cmn::NodeParams<cmn::PerceptionNodeParams> params_;
   const bool is_panorama_ = perception_params().accumulate == "panorama";
-  const bool needs_odometry_ =
-      perception_params().accumulate != "none" || perception_params().source == "fused";
+  const bool needs_odometry_ = perception_params().accumulate != "none" ||
+                               perception_params().source == "fused" ||
+                               perception_params().uses_color();
+  cmn::Perception perception_;
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
-  cmn::Perception perception_;
   cmn::PerceptPublisher publisher_;
   cmn::ContactInput contacts_{nh_, tf_buffer_, params_.frames, perception_params().guard.radius_m};
   cmn::RestDetector rest_;
   ros::Time last_stamp_;
-  std::optional<cmn::RangeScan> last_scan_;  ///< of a LiDAR beside a depth camera
+  cmn::ScanMemory last_scan_{tf_buffer_, params_.frames};  ///< of a LiDAR beside a camera
   std::optional<cmn::ScanInput> scans_;
   std::optional<cmn::DepthInput> depth_;
+  std::optional<cmn::ColorInput> color_;
   std::optional<cmn::PanoramaStrip> strip_;
   diagnostic_updater::Updater diagnostics_;
   ros::Timer timer_;

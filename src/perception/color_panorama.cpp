@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <opencv2/imgproc.hpp>
 
@@ -69,6 +70,15 @@ cv::Mat level_view(const cv::Mat& image, const CameraModel& camera,
   cv::remap(source, view, from, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
             cv::Scalar::all(0));
   return view;
+}
+
+bool is_in_view(const ColorPanorama& panorama, double bearing_rad) {
+  const int quarter = nearest_quarter(wrap_angle(bearing_rad));
+  const cv::Mat& view = panorama.views[static_cast<std::size_t>((quarter + 4) % 4)];
+  const CameraModel camera = panorama_camera();
+  const double u = camera.cx - camera.fx * std::tan(bearing_rad - quarter * kPi / 2.0);
+  const cv::Mat column = view.col(std::clamp(cvRound(u), 0, kViewSide - 1));
+  return cv::norm(column, cv::NORM_INF) > 0.0;
 }
 
 ColorPanorama turned(const ColorPanorama& panorama, int quarter_turns) {

@@ -72,44 +72,12 @@ void fill_corners(LocalOccupancy& seen, const PanoramaParams& params) {
   }
 }
 
-void Panorama::forget() {
-  looks_.clear();
-  is_complete_ = false;
-}
-
-bool Panorama::has_four_and_faces_the_first(double yaw_rad) const {
-  std::vector<int> quarters;  // of the looks of the robot's axes, from its heading on
-  for (const Look& look : looks_) {
-    const double turn_rad = wrap_angle(look.T_odom_robot.yaw - yaw_rad);
-    const int quarter = nearest_quarter(turn_rad);
-    if (std::abs(turn_rad - quarter * kPi / 2.0) < kHeading_rad) {
-      quarters.push_back((quarter + 4) % 4);
-    }
-  }
-  return quarters.size() == 4 && quarters.front() == 0;
-}
-
 LocalOccupancy Panorama::fuse(LocalOccupancy look, const Pose2& T_odom_robot) {
-  if (looks_.empty() || norm(T_odom_robot.position() - spot_) > kSpot_m) {
-    forget();
-    spot_ = T_odom_robot.position();
-  }
-  const auto same = std::find_if(looks_.begin(), looks_.end(), [&](const Look& other) {
-    return std::abs(wrap_angle(other.T_odom_robot.yaw - T_odom_robot.yaw)) < kHeading_rad;
-  });
-  if (same != looks_.end()) {
-    *same = {look, T_odom_robot};
-  } else {
-    if (looks_.size() == kMostLooks) {
-      looks_.erase(looks_.begin());
-    }
-    looks_.push_back({look, T_odom_robot});
-  }
-  is_complete_ = is_complete_ || has_four_and_faces_the_first(T_odom_robot.yaw);
-  for (const Look& other : looks_) {
+  around_.add(look, T_odom_robot);
+  for (const auto& other : around_.looks()) {
     lay_under(look, other.seen, inverse(other.T_odom_robot) * T_odom_robot);
   }
-  if (is_complete_ && params_.corner_share < 1.0) {
+  if (is_complete() && params_.corner_share < 1.0) {
     fill_corners(look, params_);
   }
   return look;

@@ -36,6 +36,9 @@ std::unique_ptr<Accumulator> make_accumulator(const std::string& word,
     return std::make_unique<SingleLooks>();
   }
   if (word == "panorama") {
+    if (params.uses_color()) {  // what is collected are the images
+      return std::make_unique<SingleLooks>();
+    }
     return std::make_unique<Panorama>(params.panorama);
   }
   if (word == "rolling") {
@@ -64,42 +67,68 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b) {
 
 Perception::View::View(const PerceptionParams& params, const ProjectionParams& grid,
                        const std::string& accumulate)
-    : projector{grid}, depth_projector{grid}, accumulator{make_accumulator(accumulate, params)} {}
+    : projector{grid}, camera_projector{grid}, accumulator{make_accumulator(accumulate, params)} {}
 
-Perception::Perception(const PerceptionParams& params)
+Perception::Perception(const PerceptionParams& params,
+                       std::shared_ptr<OccupancyPredictor> predictor)
     : params_{params},
       depth_{params.depth},
+      predictor_{std::move(predictor)},
+      color_looks_{params.accumulate == "panorama"},
       seen_{params, params.local_occupancy, params.accumulate},
-      local_map_{params, params.local_map,
-                 params.accumulate_local_map == "same" ? params.accumulate
-                                                       : params.accumulate_local_map} {}
+      local_map_{
+          params, params.local_map,
+          params.accumulate_local_map == "same" ? params.accumulate : params.accumulate_local_map} {
+  if (params.uses_color() && predictor_ == nullptr) {
+    throw std::invalid_argument(
+        "perception/source is rgb, but there is no network to predict with");
+  }
+}
 
 RangeScan Perception::depth_scan(const SensorData& data) {
   assert(data.image != nullptr || data.cloud != nullptr);
   return data.image != nullptr ? depth_.scan(*data.image) : depth_.scan(*data.cloud);
 }
 
+RangeScan Perception::camera_scan(const SensorData& data, const Pose2& T_odom_robot) {
+  if (!params_.uses_color()) {
+    return params_.uses_depth() ? depth_scan(data) : RangeScan{};
+  }
+  assert(data.color != nullptr);
+  const ColorPanorama panorama = color_looks_.add(*data.color, T_odom_robot);
+  if (color_looks_.is_complete()) {
+    return predicted_scan(predictor_->predict(panorama), panorama, params_.rgb);
+  }
+  RangeScan nothing;  // nobody concludes anything from a part: not worth a prediction
+  nothing.stamp_s = panorama.stamp_s;
+  nothing.source = ObservationSource::kRgb;
+  return nothing;
+}
+
 Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map) {
   assert(data.scan != nullptr || !params_.uses_scan());
-  const RangeScan of_depth = params_.uses_depth() ? depth_scan(data) : RangeScan{};
-  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_depth;
-  const bool is_fused = params_.uses_scan() && params_.uses_depth();
-  const auto joined = [&](View& view, LocalOccupancy&& of_guard) {
-    if (!is_fused) {
+  const RangeScan of_camera = camera_scan(data, T_odom_robot);
+  const RangeScan& guard = params_.uses_scan() ? *data.scan : of_camera;
+  const auto seen_with = [&](View& view, LocalOccupancy&& of_guard) {
+    if (params_.uses_color()) {
+      return view.camera_projector.project(of_camera);
+    }
+    if (!params_.uses_scan() || !params_.uses_depth()) {
       return std::move(of_guard);
     }
     presume_free(of_guard);
-    return nearest_of(of_guard, view.depth_projector.project(of_depth));
+    return nearest_of(of_guard, view.camera_projector.project(of_camera));
   };
 
   Percept percept;
   LocalOccupancy seen = seen_.projector.project(guard, &percept.beams);
   percept.clear_ahead_m = cmn::clear_ahead_m(guard, seen, params_.guard);
-  percept.seen = seen_.accumulator->fuse(joined(seen_, std::move(seen)), T_odom_robot);
-  percept.is_complete = seen_.accumulator->is_complete();
+  percept.seen = seen_.accumulator->fuse(seen_with(seen_, std::move(seen)), T_odom_robot);
+  percept.is_complete =
+      params_.uses_color() ? color_looks_.is_complete() : seen_.accumulator->is_complete();
   if (with_local_map) {
     percept.local_map = local_map_.accumulator->fuse(
-        joined(local_map_, local_map_.projector.project(guard)), T_odom_robot);
+        seen_with(local_map_, local_map_.projector.project(guard)), T_odom_robot);
   }
   return percept;
 }
@@ -111,6 +140,7 @@ double Perception::clear_ahead_m(const SensorData& data) {
 }
 
 void Perception::forget() {
+  color_looks_.forget();
   seen_.accumulator->forget();
   local_map_.accumulator->forget();
 }

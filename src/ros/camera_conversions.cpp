@@ -143,6 +143,23 @@ std::optional<DepthImage> depth_of(const sensor_msgs::Image& image, const Camera
   return std::nullopt;
 }
 
+std::optional<ColorImage> color_of(const sensor_msgs::Image& image, const CameraModel& camera,
+                                   const Eigen::Isometry3d& T_robot_camera, std::string& why) {
+  if (image.width != static_cast<std::uint32_t>(camera.width) ||
+      image.height != static_cast<std::uint32_t>(camera.height)) {
+    why = "the image is of another size than image/camera_info";
+    return std::nullopt;
+  }
+  try {
+    const cv_bridge::CvImagePtr copy =
+        cv_bridge::toCvCopy(image, sensor_msgs::image_encodings::BGR8);
+    return ColorImage{image.header.stamp.toSec(), camera, T_robot_camera, copy->image};
+  } catch (const std::exception&) {  // cv_bridge's own, and OpenCV's of odd sizes
+    why = "the image is \"" + image.encoding.substr(0, 20) + "\", which is no colour, or cut short";
+  }
+  return std::nullopt;
+}
+
 sensor_msgs::CameraInfo message_of(const CameraModel& camera, const std_msgs::Header& header) {
   sensor_msgs::CameraInfo info;
   info.header = header;

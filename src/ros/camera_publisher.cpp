@@ -31,9 +31,9 @@ void CameraPublisher::publish(SceneSensors& sensors, const Pose2& T_world_robot,
   if (image_pub_.getNumSubscribers() > 0 || image_info_pub_.getNumSubscribers() > 0) {
     header.frame_id = frames_.color;
     image_info_pub_.publish(message_of(color_, header));
-    image_pub_.publish(
-        cv_bridge::CvImage{header, sensor_msgs::image_encodings::BGR8, sensors.image(T_world_robot)}
-            .toImageMsg());
+    image_pub_.publish(cv_bridge::CvImage{header, sensor_msgs::image_encodings::BGR8,
+                                          sensors.color(T_world_robot, stamp.toSec()).bgr}
+                           .toImageMsg());
   }
   const bool is_cloud_wanted = cloud_pub_.getNumSubscribers() > 0;
   const bool is_image_wanted =

@@ -5,33 +5,22 @@
 #include "coarse_map_nav/ros/camera_conversions.hpp"
 #include "coarse_map_nav/ros/tf_lookup.hpp"
 
+#include <string>
 #include <utility>
-#include <vector>
 
 namespace cmn {
 
 DepthInput::DepthInput(ros::NodeHandle& nh, tf2_ros::Buffer& buffer, const FrameParams& frames,
                        double timeout_s, OnData on_data)
-    : buffer_{buffer}, frames_{frames}, on_data_{std::move(on_data)}, monitor_{"depth", timeout_s} {
-  info_sub_ = nh.subscribe<sensor_msgs::CameraInfo>("camera_info", 1,
-                                                    [this](const auto& msg) { info_ = *msg; });
-  listen(nh, "points", clouds_, &DepthInput::on_cloud);
-  listen(nh, "depth/image", images_, &DepthInput::on_image);
-}
-
-template <class Message>
-void DepthInput::listen(ros::NodeHandle& nh, const std::string& topic, Waiting<Message>& waiting,
-                        void (DepthInput::*handle)(const Message&)) {
-  waiting.filter.emplace(waiting.subscriber, buffer_, frames_.odom, 3, nh);
-  waiting.filter->setTargetFrames(std::vector<std::string>{frames_.base, frames_.odom});
-  waiting.filter->registerCallback(
-      [this, handle](const typename Message::ConstPtr& msg) { (this->*handle)(*msg); });
-  waiting.filter->registerFailureCallback([this](const typename Message::ConstPtr& msg, auto) {
-    monitor_.dropped("no transform from " + msg->header.frame_id + " to " + frames_.base + " and " +
-                     frames_.odom + " at its time");
-  });
-  waiting.subscriber.subscribe(nh, topic, 3);
-}
+    : buffer_{buffer},
+      frames_{frames},
+      on_data_{std::move(on_data)},
+      monitor_{"depth", timeout_s},
+      info_sub_{nh.subscribe<sensor_msgs::CameraInfo>("camera_info", 1,
+                                                      [this](const auto& msg) { info_ = *msg; })},
+      clouds_{nh, "points", buffer, frames, monitor_, [this](const auto& msg) { on_cloud(msg); }},
+      images_{nh,     "depth/image", buffer,
+              frames, monitor_,      [this](const auto& msg) { on_image(msg); }} {}
 
 std::optional<Eigen::Isometry3d> DepthInput::mount_of(const std_msgs::Header& header) {
   std::string why;

@@ -56,8 +56,9 @@ DepthImage RayCastSensors::true_depth(const Pose2& T_world_robot, double stamp_s
           depth_.truth(*caster_, in_space(T_world_robot) * mounts_.T_robot_depth)};
 }
 
-cv::Mat RayCastSensors::image(const Pose2& T_world_robot) {
-  return color_.take(*caster_, in_space(T_world_robot) * mounts_.T_robot_color);
+ColorImage RayCastSensors::color(const Pose2& T_world_robot, double stamp_s) {
+  return {stamp_s, color_.camera(), mounts_.T_robot_color,
+          color_.take(*caster_, in_space(T_world_robot) * mounts_.T_robot_color)};
 }
 
 }  // namespace cmn

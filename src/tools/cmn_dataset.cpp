@@ -8,6 +8,7 @@
 #include "coarse_map_nav/learning/example_renderer.hpp"
 #include "coarse_map_nav/learning/example_set.hpp"
 #include "coarse_map_nav/learning/example_sheet.hpp"
+#include "coarse_map_nav/learning/prediction_score.hpp"
 #include "coarse_map_nav/scene/furniture_meshes.hpp"
 #include "coarse_map_nav/scene/house_scene.hpp"
 #include "coarse_map_nav/scene/sdf_reader.hpp"
@@ -54,9 +55,12 @@ struct Plan {
   cmn::ExampleParams params;
 };
 
+cmn::ExampleRenderer renderer_of(cmn::MeshScene scene, const Plan& plan, std::uint32_t house) {
+  return {std::move(scene), plan.params, plan.seed * 0x100000000U + house};
+}
+
 std::vector<cmn::Example> examples_of(cmn::MeshScene scene, const Plan& plan, std::uint32_t house) {
-  const std::uint64_t seed = plan.seed * 0x100000000U + house;
-  cmn::ExampleRenderer renderer{std::move(scene), plan.params, seed};
+  cmn::ExampleRenderer renderer = renderer_of(std::move(scene), plan, house);
   std::vector<cmn::Example> examples;
   for (std::size_t i = 0; i < plan.views && !is_interrupted; ++i) {
     examples.push_back(renderer.next());
@@ -139,18 +143,55 @@ class Renderer {
   std::string error_;
 };
 
-/// A world that is not generated is for tests alone.
-void render_world(const Plan& plan, const std::string& path) {
+cmn::MeshScene read_world(const std::string& path) {
   std::vector<std::string> warnings;
   cmn::MeshScene scene = cmn::read_sdf(path, warnings);
   for (const std::string& warning : warnings) {
     std::cerr << warning << "\n";
   }
+  return scene;
+}
+
+/// A world that is not generated is for tests alone.
+void render_world(const Plan& plan, const std::string& path) {
   const std::string file = plan.out + "/" + fs::path{path}.stem().string() + ".h5";
   cmn::write_examples(file, cmn::kForeignWorld,
-                      examples_of(std::move(scene), plan, cmn::kForeignWorld));
+                      examples_of(read_world(path), plan, cmn::kForeignWorld));
   std::cout << file << "\n";
 }
+
+/// Renders the test split's examples, as they are in their files, and measures depth on them.
+class DepthMeasurement {
+ public:
+  void add(cmn::MeshScene scene, const Plan& plan, std::uint32_t house) {
+    cmn::ExampleRenderer renderer = renderer_of(std::move(scene), plan, house);
+    for (std::size_t i = 0; i < plan.views && !is_interrupted; ++i) {
+      const cmn::Example example = renderer.next();
+      const cmn::PredictedOccupancy seen = renderer.last_by_depth();
+      near_.add(seen.near, example.near);
+      wide_.add(*seen.wide, example.wide);
+      ++examples_;
+    }
+  }
+  void add_houses(const Plan& plan) {
+    const auto meshes = cmn::open_furniture();
+    for (std::size_t i = 0; i < plan.houses; ++i) {
+      const auto house = static_cast<std::uint32_t>(plan.first_house + i);
+      if (cmn::split_of(house) == cmn::Split::kTest) {
+        add(cmn::house_scene(cmn::generate_house(house), house, meshes.get()), plan, house);
+      }
+    }
+  }
+  void print() const {
+    std::printf("%zu panoramas\nRESULT square=near %s\nRESULT square=wide %s\n", examples_,
+                cmn::score_text(near_).c_str(), cmn::score_text(wide_).c_str());
+  }
+
+ private:
+  cmn::SquareScore near_;
+  cmn::SquareScore wide_;
+  std::size_t examples_ = 0;
+};
 
 void write_sheet(const std::string& folder, const std::string& split, std::uint64_t seed,
                  const std::string& path) {
@@ -172,7 +213,8 @@ int run(int argc, char** argv) {
   po::options_description options{
       "cmn_dataset --out DIR [--houses 600] [--views 32] [--jobs 2]\n"
       "cmn_dataset --out DIR --world small_house.world --views 500\n"
-      "cmn_dataset --out DIR --sheet samples.png\n\n"
+      "cmn_dataset --out DIR --sheet samples.png\n"
+      "cmn_dataset --measure-depth [--world small_house.world]\n\n"
       "Renders panoramas in generated, furnished homes and the occupancy around the robot, a file\n"
       "a house. What is there already is kept: the same command goes on. Houses are trained on,\n"
       "validated on or tested on by their seed; worlds are for tests alone.\n"
@@ -189,6 +231,9 @@ int run(int argc, char** argv) {
   add_option("jobs", po::value<int>()->default_value(1), "threads; the result is the same for any");
   add_option("params", po::value<std::string>(), "YAML file of parameters");
   add_option("world", po::value<std::string>(), "a Gazebo world instead of houses");
+  add_option("measure-depth",
+             "write nothing; measure a depth camera's projection on the examples "
+             "of the test split");
   add_option("sheet", po::value<std::string>(), "draw some of the examples that are there");
   add_option("split", po::value<std::string>()->default_value("train"),
              "with --sheet: train, validation or test");
@@ -199,7 +244,6 @@ int run(int argc, char** argv) {
     return argc == 1 ? EXIT_FAILURE : EXIT_SUCCESS;
   }
   Plan plan;
-  plan.out = cmn::needed(given, "out");
   plan.first_house = given["first-house"].as<std::uint32_t>();
   plan.houses = given["houses"].as<std::size_t>();
   plan.views = given["views"].as<std::size_t>();
@@ -209,6 +253,17 @@ int run(int argc, char** argv) {
   if (plan.jobs < 1 || plan.views < 1 || plan.houses < 1) {
     throw std::runtime_error("--jobs, --views and --houses are 1 or more");
   }
+  if (given.count("measure-depth") != 0) {
+    DepthMeasurement depth;
+    if (given.count("world") != 0) {
+      depth.add(read_world(given["world"].as<std::string>()), plan, cmn::kForeignWorld);
+    } else {
+      depth.add_houses(plan);
+    }
+    depth.print();
+    return EXIT_SUCCESS;
+  }
+  plan.out = cmn::needed(given, "out");
   if (given.count("sheet") != 0) {
     write_sheet(plan.out, given["split"].as<std::string>(), plan.seed,
                 given["sheet"].as<std::string>());

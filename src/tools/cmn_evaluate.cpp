@@ -181,7 +181,8 @@ int run(int argc, char** argv) {
   add_option(
       "task",
       po::value<std::vector<std::string>>()->multitoken()->composing()->default_value({"CL"}, "CL"),
-      "CG, CL, CD, CF, HL, WL, TL; CLK, CFK, HLK, WLK: likewise, kidnapped once; several with "
+      "CG, CI, HD, CL, CD, CF, HL, WL, TL; CLK, CFK, HLK, WLK: likewise, kidnapped once; several "
+      "with "
       "commas");
   add_option("mpp",
              po::value<std::vector<std::string>>()->multitoken()->composing()->default_value(
@@ -207,6 +208,9 @@ int run(int argc, char** argv) {
   add_option("robot", po::value<std::string>(),
              "its description (URDF), for where its sensors are in worlds with heights; default: "
              "urdf/locobot.urdf");
+  add_option("model", po::value<std::string>(),
+             "the network (TorchScript) of tasks and methods that look in colour; default: "
+             "models/wedge.pt");
   add_option("judge", po::value<std::string>(),
              "yaml file of what is to differ of the judge and the simulated robot, as "
              "{least_way_m: 1, simulation: {robot: {radius_m: 0.1}}}");
@@ -264,6 +268,8 @@ int run(int argc, char** argv) {
                                            : find_share() / "config";
   plan.robot = given.count("robot") != 0 ? fs::path{given["robot"].as<std::string>()}
                                          : find_share() / "urdf" / "locobot.urdf";
+  plan.model = given.count("model") != 0 ? given["model"].as<std::string>()
+                                         : (find_share() / "models" / "wedge.pt").string();
   cmn::ParamTree judge;
   if (given.count("judge") != 0) {
     judge = judge_changes(given["judge"].as<std::string>(), plan.judge);

@@ -4,9 +4,11 @@
 /// cmn_train: trains the network that sees local occupancy in colour images, and measures one.
 
 #include "coarse_map_nav/evaluation/progress.hpp"
+#include "coarse_map_nav/learning/example_sheet.hpp"
 #include "coarse_map_nav/learning/torch_predictor.hpp"
 #include "coarse_map_nav/learning/training.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -14,12 +16,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "needed_options.hpp"
 #include "tool_main.hpp"
 #include <boost/program_options.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <unistd.h>
 
 namespace {
@@ -54,6 +60,7 @@ int train(const po::variables_map& given) {
   job.out = cmn::needed(given, "out");
   job.seed = given["seed"].as<std::uint64_t>();
   job.threads = given["threads"].as<int>();
+  job.start_from = given.count("start-from") != 0 ? given["start-from"].as<std::string>() : "";
   job.params = cmn::params_of<cmn::TrainingParams>(given);
   if (job.threads < 1) {
     throw std::runtime_error("--threads is not 1 or more");
@@ -96,16 +103,75 @@ int train(const po::variables_map& given) {
   return EXIT_SUCCESS;
 }
 
+void write_sheet(const std::string& path, const std::vector<cmn::SheetRow>& rows) {
+  if (rows.empty() || !cv::imwrite(path, cmn::example_sheet(rows))) {
+    throw std::runtime_error(path + ": cannot be written, or there is nothing to draw");
+  }
+}
+
+/// Four square views side by side, as a robot sees them that turns to the right: front, right,
+/// back, left. What the camera's true field of view is nobody asks: 90 degrees are assumed.
+cmn::ColorPanorama panorama_of_strip(const std::string& path) {
+  const cv::Mat strip = cv::imread(path, cv::IMREAD_COLOR);
+  if (strip.empty() || strip.cols != 4 * strip.rows) {
+    throw std::runtime_error(path + ": is no picture of four square views side by side");
+  }
+  cmn::ColorPanorama panorama;
+  for (int i = 0; i < 4; ++i) {
+    const cv::Mat view = strip.colRange(i * strip.rows, (i + 1) * strip.rows);
+    cv::resize(view, panorama.views[static_cast<std::size_t>((4 - i) % 4)],
+               {cmn::kViewSide, cmn::kViewSide}, 0.0, 0.0, cv::INTER_AREA);
+  }
+  return panorama;
+}
+
+/// What is predicted of the pictures of a folder.
+void show_strips(cmn::OccupancyPredictor& predictor, const std::string& folder,
+                 const std::string& sheet) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator{folder}) {
+    paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<cmn::SheetRow> rows;
+  for (const std::string& path : paths) {
+    const cmn::ColorPanorama panorama = panorama_of_strip(path);
+    rows.push_back({panorama, std::nullopt, predictor.predict(panorama)});
+  }
+  write_sheet(sheet, rows);
+}
+
+void show_examples(cmn::OccupancyPredictor& predictor, cmn::ExampleSet& examples,
+                   std::uint64_t seed, const std::string& sheet) {
+  constexpr std::size_t kRows = 16;
+  std::vector<std::size_t> order = cmn::shuffled_order(examples.size(), seed, 0);
+  order.resize(std::min(order.size(), kRows));
+  std::vector<cmn::SheetRow> rows;
+  for (const std::size_t index : order) {
+    const cmn::Example example = examples.read(index);
+    rows.push_back({example.panorama, example, predictor.predict(example.panorama)});
+  }
+  write_sheet(sheet, rows);
+}
+
 int evaluate(const po::variables_map& given) {
-  const std::string path = given["evaluate"].as<std::string>();
   cmn::PredictorOptions options;
   options.threads = given["threads"].as<int>();
-  const auto predictor = cmn::load_predictor(path, options);
+  const auto predictor = cmn::load_predictor(given["evaluate"].as<std::string>(), options);
+  if (given.count("strips") != 0) {
+    show_strips(*predictor, given["strips"].as<std::string>(), cmn::needed(given, "sheet"));
+    return EXIT_SUCCESS;
+  }
   cmn::ExampleSet examples{cmn::needed(given, "data"),
                            cmn::parse_split(given["split"].as<std::string>())};
+  const auto seed = given["seed"].as<std::uint64_t>();
+  if (given.count("sheet") != 0) {
+    show_examples(*predictor, examples, seed, given["sheet"].as<std::string>());
+    return EXIT_SUCCESS;
+  }
   const Stopwatch watch;
-  const cmn::PredictionScores scores = cmn::evaluate_predictor(
-      *predictor, examples, given["examples"].as<std::size_t>(), given["seed"].as<std::uint64_t>());
+  const cmn::PredictionScores scores =
+      cmn::evaluate_predictor(*predictor, examples, given["examples"].as<std::size_t>(), seed);
   std::printf("%zu panoramas of %zu houses, %.1f ms each\n", scores.examples,
               examples.house_count(),
               1e3 * watch.elapsed_s() / static_cast<double>(scores.examples));
@@ -119,7 +185,8 @@ int evaluate(const po::variables_map& given) {
 int run(int argc, char** argv) {
   po::options_description options{
       "cmn_train --data EXAMPLES --out DIR [--params training.yaml] [--minutes 30]\n"
-      "cmn_train --evaluate model.pt --data EXAMPLES [--split test]\n\n"
+      "cmn_train --evaluate model.pt --data EXAMPLES [--split test] [--sheet look.png]\n"
+      "cmn_train --evaluate model.pt --strips PICTURES --sheet look.png\n\n"
       "Trains on the examples that cmn_dataset has made, and leaves model.pt, log.csv, log.svg "
       "and\n"
       "checkpoint.pt in DIR. Stopped or killed, the same command goes on to the same result.\n"
@@ -130,6 +197,8 @@ int run(int argc, char** argv) {
   add_option("data", po::value<std::string>(), "folder of examples");
   add_option("out", po::value<std::string>(), "folder of the training");
   add_option("params", po::value<std::string>(), "YAML file of parameters");
+  add_option("start-from", po::value<std::string>(),
+             "checkpoint.pt of another training, whose weights are the first ones");
   add_option("seed", po::value<std::uint64_t>()->default_value(1),
              "of weights and order; with --evaluate, of the examples' choice");
   add_option("threads", po::value<int>()->default_value(1),
@@ -137,6 +206,11 @@ int run(int argc, char** argv) {
   add_option("minutes", po::value<double>()->default_value(0.0),
              "stop after so long, to go on later; 0: never");
   add_option("evaluate", po::value<std::string>(), "measure this TorchScript model");
+  add_option("sheet", po::value<std::string>(),
+             "with --evaluate: draw predictions instead of measuring them");
+  add_option("strips", po::value<std::string>(),
+             "folder of pictures, in each four square views of 90 degrees side by side: front, "
+             "right, back, left");
   add_option("split", po::value<std::string>()->default_value("test"),
              "with --evaluate: train, validation or test");
   add_option("examples", po::value<std::size_t>()->default_value(2000),

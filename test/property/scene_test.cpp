@@ -66,7 +66,7 @@ TEST(SceneProperty, LookingWithOneSensorLeavesTheOthersAlone) {
   RayCastSensors alone{caster, {}, mounts_at(0.2), 5};
   RayCastSensors busy{caster, {}, mounts_at(0.2), 5};
   busy.depth(at, 0.0);
-  busy.image(at);
+  busy.color(at, 0.0);
   EXPECT_EQ(alone.scan(at, 0.0).ranges_m, busy.scan(at, 0.0).ranges_m);
 }
 

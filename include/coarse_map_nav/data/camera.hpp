@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Pinhole cameras and what a depth camera hands over.
+/// Pinhole cameras and what they hand over.
 #pragma once
 
 #include <cmath>
@@ -30,6 +30,14 @@ struct CameraModel {
   double horizontal_field_of_view_rad() const {
     return std::atan2(cx + 0.5, fx) + std::atan2(width - 0.5 - cx, fx);
   }
+};
+
+/// One colour image and where it was taken from.
+struct ColorImage {
+  double stamp_s = 0.0;
+  CameraModel camera;
+  Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();  ///< base_link <- optical frame
+  cv::Mat bgr;  ///< CV_8UC3, height x width
 };
 
 /// One depth image and where it was taken from.

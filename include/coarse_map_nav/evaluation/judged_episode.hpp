@@ -10,6 +10,7 @@
 #include "coarse_map_nav/evaluation/method.hpp"
 #include "coarse_map_nav/evaluation/route_sampler.hpp"
 #include "coarse_map_nav/evaluation/task.hpp"
+#include "coarse_map_nav/perception/occupancy_predictor.hpp"
 #include "coarse_map_nav/simulation/scene_sensors.hpp"
 #include "coarse_map_nav/simulation/simulator.hpp"
 
@@ -65,11 +66,13 @@ struct EpisodeMoment {
 using EpisodeRecorder = std::function<void(const EpisodeMoment&)>;
 
 /// Runs a method until it declares an end, the horizon of its parameters is over or, where the
-/// judge ends episodes, success. Deterministic but for step_ms. `clock_s` times the steps.
+/// judge ends episodes, success. Deterministic but for step_ms. `clock_s` times the steps;
+/// `predictor` is of methods that look in colour.
 EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawing& drawing,
                               const Route& route, const Method& method, NavigatorParams params,
                               const JudgeParams& judge, const EpisodeKey& key,
                               const std::function<double()>& clock_s,
-                              const EpisodeRecorder& recorder = {});
+                              const EpisodeRecorder& recorder = {},
+                              std::shared_ptr<OccupancyPredictor> predictor = nullptr);
 
 }  // namespace cmn

@@ -17,7 +17,8 @@ class Looks {
   Looks(SceneSensors& sensors, const PerceptionParams& perception)
       : sensors_{sensors},
         uses_scan_{perception.uses_scan()},
-        uses_depth_{perception.uses_depth()} {}
+        uses_depth_{perception.uses_depth()},
+        uses_color_{perception.uses_color()} {}
 
   /// Valid until the next call. Each draws new noise.
   SensorData at(const Pose2& T_world_robot, double stamp_s) {
@@ -30,6 +31,10 @@ class Looks {
       image_ = sensors_.depth(T_world_robot, stamp_s);
       data.image = &image_;
     }
+    if (uses_color_) {
+      color_ = sensors_.color(T_world_robot, stamp_s);
+      data.color = &color_;
+    }
     return data;
   }
 
@@ -37,8 +42,10 @@ class Looks {
   SceneSensors& sensors_;
   bool uses_scan_;
   bool uses_depth_;
+  bool uses_color_;
   RangeScan scan_;
   DepthImage image_;
+  ColorImage color_;
 };
 
 }  // namespace cmn

@@ -16,10 +16,11 @@ enum class DrawingKind { kCoarseGrid, kHandDrawn, kWallsOnly, kTurnedGrid };
 /// Of kTurnedGrid: how far its axes lie from those of the walls.
 constexpr double kDrawingTurn_rad = 7.0 * kPi / 180.0;
 enum class ObservationKind {
-  kTrueCrop,      ///< the true 3 x 3 crop of the map (CMN, "grid observations")
-  kLidar,         ///< 360 deg; and the depth camera, where a method's preset looks with it
-  kForward,       ///< likewise, but the LiDAR looks forward, too: 180 deg
-  kDepthPanorama  ///< four looks of the depth camera with pivots, whatever the preset
+  kTrueCrop,       ///< the true 3 x 3 crop of the map (CMN, "grid observations")
+  kLidar,          ///< 360 deg; and the depth camera, where a method's preset looks with it
+  kForward,        ///< likewise, but the LiDAR looks forward, too: 180 deg
+  kDepthPanorama,  ///< four looks of the depth camera with pivots, whatever the preset
+  kColorPanorama   ///< four looks of the colour camera with pivots, predicted from; likewise
 };
 
 struct Task {
@@ -27,8 +28,8 @@ struct Task {
   DrawingKind drawing = DrawingKind::kCoarseGrid;
   ObservationKind observation = ObservationKind::kLidar;
   bool knows_heading = false;  ///< at the start
-  /// Of CMN in Habitat: the map is of where the robot's middle can be, the robot slides along walls
-  /// and has no obstacle guard, and each method has its own planner.
+  /// Of CMN in Habitat: the robot slides along walls and has no obstacle guard, each method has its
+  /// own planner, and a map that is cropped for looks is of where the robot's middle can be.
   bool has_paper_setting = false;
   /// Once the robot is carried elsewhere, and its odometry does not notice (KidnapParams).
   bool kidnaps = false;

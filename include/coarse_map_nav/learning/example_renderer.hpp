@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/learning/example.hpp"
+#include "coarse_map_nav/perception/occupancy_predictor.hpp"
 #include "coarse_map_nav/scene/color_camera.hpp"
 #include "coarse_map_nav/scene/ray_caster.hpp"
 #include "coarse_map_nav/scene/scene.hpp"
@@ -86,12 +87,17 @@ class ExampleRenderer {
   ExampleRenderer(MeshScene scene, const ExampleParams& params, std::uint64_t seed);
 
   Example next();
+  /// What the depth of the same four looks as those of the last example comes to by projection: to
+  /// compare a network with. The camera is known exactly and has a RealSense's faults.
+  PredictedOccupancy last_by_depth();
 
  private:
+  /// A look straight ahead with the last example's camera.
+  Eigen::Isometry3d T_robot_camera(double left_rad, double up_rad) const;
   void relight();
   /// The truth around a pose, from the fine map.
   cv::Mat square_at(const Pose2& pose, const cv::Mat& map, int size, double side_m) const;
-  cv::Mat view_at(const Pose2& pose, const Example& example, double forward_m, ColorCamera& camera);
+  cv::Mat view_at(const Pose2& pose, ColorCamera& camera);
   void finish(Example& example);
   double uniform(double from, double to);
 
@@ -105,6 +111,12 @@ class ExampleRenderer {
   cv::Mat occupied_;          ///< the same as an image, row = y
   cv::Mat occupied_wide_;     ///< whether anything is within half a wide cell
   std::vector<Cell> places_;  ///< where the robot fits
+  // Of the last example.
+  Pose2 pose_;
+  double forward_m_ = 0.0;
+  double height_m_ = 0.0;
+  double tilt_rad_ = 0.0;
+  double view_rad_ = 0.0;
 };
 
 }  // namespace cmn

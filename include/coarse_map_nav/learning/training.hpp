@@ -71,8 +71,9 @@ struct TrainingProgress {
 };
 
 struct TrainingJob {
-  std::string data;  ///< folder of examples
-  std::string out;   ///< folder that exists; goes on from the checkpoint that lies there
+  std::string data;        ///< folder of examples
+  std::string out;         ///< folder that exists; goes on from the checkpoint that lies there
+  std::string start_from;  ///< another training's checkpoint: the first weights; empty: drawn
   std::uint64_t seed = 1;
   int threads = 1;
   int checkpoint_batches = 200;  ///< between two checkpoints

@@ -42,6 +42,10 @@ CameraModel panorama_camera();
 cv::Mat level_view(const cv::Mat& image, const CameraModel& camera,
                    const Eigen::Matrix3d& R_level_camera = Eigen::Matrix3d::Identity());
 
+/// Whether the camera looked that way, to the left of where the robot faces: whether the column of
+/// pixels there is not all black.
+bool is_in_view(const ColorPanorama& panorama, double bearing_rad);
+
 /// The panorama of a robot turned to the left by `quarter_turns` quarter turns at the same place.
 ColorPanorama turned(const ColorPanorama& panorama, int quarter_turns);
 

@@ -8,9 +8,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/perception/accumulator.hpp"
-
-#include <cstddef>
-#include <vector>
+#include "coarse_map_nav/perception/looks_around.hpp"
 
 namespace cmn {
 
@@ -34,35 +32,18 @@ void fill_corners(LocalOccupancy& seen, const PanoramaParams& params);
 /// The panorama of CMN and Robb: looks at four headings, a quarter turn apart, from one spot.
 ///
 /// They are laid over each other by odometry; where two of them saw a cell, the more confident one
-/// counts, of equals the last. Complete when four headings of the same axes have been looked at and
-/// the robot faces the first of them again, so that a panorama has not turned it; from then on it
-/// may turn on the spot and stays complete. A step away begins a new panorama. Looks are to be made
-/// at rest.
+/// counts, of equals the last. When it is complete says LooksAround.
 class Panorama : public Accumulator {
  public:
   explicit Panorama(const PanoramaParams& params) : params_{params} {}
 
   LocalOccupancy fuse(LocalOccupancy look, const Pose2& T_odom_robot) override;
-  void forget() override;
-  bool is_complete() const override { return is_complete_; }
-
-  /// Less than that is no step away, and no turn off a heading.
-  static constexpr double kSpot_m = 0.05;
-  static constexpr double kHeading_rad = 10.0 * kPi / 180.0;
-  /// Four, and some from other axes: a robot starts out anywhere and turns onto its axes.
-  static constexpr std::size_t kMostLooks = 8;
+  void forget() override { around_.forget(); }
+  bool is_complete() const override { return around_.is_complete(); }
 
  private:
-  struct Look {
-    LocalOccupancy seen;
-    Pose2 T_odom_robot;
-  };
-  bool has_four_and_faces_the_first(double yaw_rad) const;
-
   PanoramaParams params_;
-  std::vector<Look> looks_;  ///< the last of each heading, in the order in which it was first seen
-  Point2 spot_;
-  bool is_complete_ = false;
+  LooksAround<LocalOccupancy> around_;
 };
 
 }  // namespace cmn

@@ -10,9 +10,12 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/data/point_cloud.hpp"
 #include "coarse_map_nav/perception/accumulator.hpp"
+#include "coarse_map_nav/perception/color_looks.hpp"
 #include "coarse_map_nav/perception/depth_projection.hpp"
 #include "coarse_map_nav/perception/obstacle_guard.hpp"
+#include "coarse_map_nav/perception/occupancy_predictor.hpp"
 #include "coarse_map_nav/perception/panorama.hpp"
+#include "coarse_map_nav/perception/predicted_scan.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 #include "coarse_map_nav/perception/rolling_map.hpp"
 
@@ -26,19 +29,20 @@ struct PerceptionParams {
   std::string accumulate = "none";
   std::string accumulate_local_map = "same";
   DepthParams depth;
+  RgbParams rgb;
   PanoramaParams panorama;
   RollingMapParams rolling;
   ProjectionParams local_occupancy;
   ProjectionParams local_map{160, 8.0, 0.0};
   ObstacleGuardParams guard;
   bool uses_scan() const { return source != "depth"; }
-  bool uses_depth() const { return source != "lidar"; }
+  bool uses_depth() const { return source == "depth" || source == "fused"; }
+  bool uses_color() const { return source == "rgb"; }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
-    visit(
-        "source", self.source, OneOf{{"lidar", "depth", "fused"}},
-        "the sensor that local occupancy is made from: a LiDAR, a depth camera, or both, of which "
-        "the LiDAR alone guards the motion");
+    visit("source", self.source, OneOf{{"lidar", "depth", "fused", "rgb"}},
+          "what local occupancy is made from: a LiDAR, a depth camera, both (fused), or a colour "
+          "camera and a network (rgb); of fused and rgb a LiDAR alone guards the motion");
     visit("accumulate", self.accumulate, OneOf{{"none", "panorama", "rolling"}},
           "none: each look by itself; panorama: four looks, a quarter turn apart, are one (CMN); "
           "rolling: what was seen lately is kept (CMP eq. 1 to 3)");
@@ -46,6 +50,7 @@ struct PerceptionParams {
           "likewise of what the planner is told; same: as accumulate says; rolling: for a camera "
           "that does not see what is near, and has seen it before");
     visit.group("depth", self.depth);
+    visit.group("rgb", self.rgb);
     visit.group("panorama", self.panorama);
     visit.group("rolling", self.rolling);
     visit.group("local_occupancy", self.local_occupancy);
@@ -60,6 +65,7 @@ struct SensorData {
   const RangeScan* scan = nullptr;
   const DepthImage* image = nullptr;
   const PointCloudView* cloud = nullptr;
+  const ColorImage* color = nullptr;
 };
 
 /// What is made of them.
@@ -78,8 +84,10 @@ LocalOccupancy nearest_of(const LocalOccupancy& a, const LocalOccupancy& b);
 
 class Perception {
  public:
-  /// Throws std::invalid_argument when a word of `params` is unknown.
-  explicit Perception(const PerceptionParams& params);
+  /// `predictor`: of the source "rgb", shared with nobody at the same time. Throws
+  /// std::invalid_argument when a word of `params` is unknown or the predictor is missing.
+  explicit Perception(const PerceptionParams& params,
+                      std::shared_ptr<OccupancyPredictor> predictor = nullptr);
 
   /// Of both sensors, ground that the LiDAR alone sees to be free is presumed to be (kPresumed).
   /// `data` was measured with the robot at `T_odom_robot`, which `accumulate: none` makes no use
@@ -97,14 +105,18 @@ class Perception {
   struct View {
     View(const PerceptionParams& params, const ProjectionParams& grid,
          const std::string& accumulate);
-    RangeProjector projector;        ///< of the sensor that guards
-    RangeProjector depth_projector;  ///< of the camera beside a LiDAR
+    RangeProjector projector;         ///< of the sensor that guards
+    RangeProjector camera_projector;  ///< of the camera beside a LiDAR
     std::unique_ptr<Accumulator> accumulator;
   };
   RangeScan depth_scan(const SensorData& data);
+  /// Of the camera beside the LiDAR: none while a panorama is incomplete.
+  RangeScan camera_scan(const SensorData& data, const Pose2& T_odom_robot);
 
   PerceptionParams params_;
   DepthProjector depth_;
+  std::shared_ptr<OccupancyPredictor> predictor_;
+  ColorLooks color_looks_;
   View seen_;
   View local_map_;
 };

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Messages of depth cameras <-> core types. What is malformed comes back empty, with a reason.
+/// Messages of cameras <-> core types. What is malformed comes back empty, with a reason.
 #pragma once
 
 #include "coarse_map_nav/data/camera.hpp"
@@ -32,6 +32,10 @@ std::optional<CameraModel> camera_of(const sensor_msgs::CameraInfo& info, std::s
 
 /// 16UC1 in millimetres or 32FC1 in metres, as REP-118 has it, copied.
 std::optional<DepthImage> depth_of(const sensor_msgs::Image& image, const CameraModel& camera,
+                                   const Eigen::Isometry3d& T_robot_camera, std::string& why);
+
+/// Any encoding that cv_bridge makes BGR of (RGB, grey, Bayer, YUV; 16 bits are halved), copied.
+std::optional<ColorImage> color_of(const sensor_msgs::Image& image, const CameraModel& camera,
                                    const Eigen::Isometry3d& T_robot_camera, std::string& why);
 
 sensor_msgs::CameraInfo message_of(const CameraModel& camera, const std_msgs::Header& header);

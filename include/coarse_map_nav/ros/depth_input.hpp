@@ -5,20 +5,17 @@
 #pragma once
 
 #include "coarse_map_nav/perception/perception.hpp"
-#include "coarse_map_nav/ros/node.hpp"
+#include "coarse_map_nav/ros/awaited_messages.hpp"
 
 #include <functional>
 #include <optional>
-#include <string>
 
-#include <message_filters/subscriber.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/message_filter.h>
 
 namespace cmn {
 
@@ -35,14 +32,6 @@ class DepthInput {
   InputMonitor& monitor() { return monitor_; }
 
  private:
-  template <class Message>
-  struct Waiting {
-    message_filters::Subscriber<Message> subscriber;
-    std::optional<tf2_ros::MessageFilter<Message>> filter;
-  };
-  template <class Message>
-  void listen(ros::NodeHandle& nh, const std::string& topic, Waiting<Message>& waiting,
-              void (DepthInput::*handle)(const Message&));
   void on_cloud(const sensor_msgs::PointCloud2& cloud);
   void on_image(const sensor_msgs::Image& image);
   std::optional<Eigen::Isometry3d> mount_of(const std_msgs::Header& header);
@@ -53,8 +42,8 @@ class DepthInput {
   InputMonitor monitor_;
   std::optional<sensor_msgs::CameraInfo> info_;
   ros::Subscriber info_sub_;
-  Waiting<sensor_msgs::PointCloud2> clouds_;
-  Waiting<sensor_msgs::Image> images_;
+  AwaitedMessages<sensor_msgs::PointCloud2> clouds_;
+  AwaitedMessages<sensor_msgs::Image> images_;
 };
 
 }  // namespace cmn

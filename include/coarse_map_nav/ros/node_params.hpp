@@ -79,12 +79,15 @@ struct MapServerParams {
 struct PerceptionNodeParams {
   double scan_timeout_s = 1.0;
   double depth_timeout_s = 1.0;
+  double image_timeout_s = 1.0;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("scan_timeout_s", self.scan_timeout_s, Between{0.05, 60.0},
           "[s] scans silent for longer are an error in /diagnostics");
     visit("depth_timeout_s", self.depth_timeout_s, Between{0.05, 60.0},
           "[s] a depth camera silent for longer is an error in /diagnostics");
+    visit("image_timeout_s", self.image_timeout_s, Between{0.05, 60.0},
+          "[s] a colour camera silent for longer is an error in /diagnostics");
   }
 };
 

@@ -38,7 +38,7 @@ class RayCastSensors : public SceneSensors {
 
   RangeScan scan(const Pose2& T_world_robot, double stamp_s) override;
   DepthImage depth(const Pose2& T_world_robot, double stamp_s) override;
-  cv::Mat image(const Pose2& T_world_robot) override;
+  ColorImage color(const Pose2& T_world_robot, double stamp_s) override;
   /// The depth image without noise and faults; +inf where there is nothing.
   DepthImage true_depth(const Pose2& T_world_robot, double stamp_s);
   const CameraModel& color_camera() const { return color_.camera(); }

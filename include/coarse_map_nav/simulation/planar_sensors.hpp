@@ -24,7 +24,7 @@ class PlanarSensors : public SceneSensors {
   }
   /// Throw std::logic_error: there is nothing that a camera could see.
   DepthImage depth(const Pose2& /*T_world_robot*/, double /*stamp_s*/) override { refuse(); }
-  cv::Mat image(const Pose2& /*T_world_robot*/) override { refuse(); }
+  ColorImage color(const Pose2& /*T_world_robot*/, double /*stamp_s*/) override { refuse(); }
 
  private:
   [[noreturn]] static void refuse() {

@@ -8,8 +8,6 @@
 #include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/perception/range_projection.hpp"
 
-#include <opencv2/core.hpp>
-
 namespace cmn {
 
 /// The sensors of one robot in one scene, at their mounts, with their noise. Each draws from a
@@ -21,8 +19,8 @@ class SceneSensors {
   virtual RangeScan scan(const Pose2& T_world_robot, double stamp_s) = 0;
   /// Of the depth camera, faults of a RealSense included.
   virtual DepthImage depth(const Pose2& T_world_robot, double stamp_s) = 0;
-  /// Of the colour camera: CV_8UC3, BGR.
-  virtual cv::Mat image(const Pose2& T_world_robot) = 0;
+  /// Of the colour camera.
+  virtual ColorImage color(const Pose2& T_world_robot, double stamp_s) = 0;
 };
 
 }  // namespace cmn

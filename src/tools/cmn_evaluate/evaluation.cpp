@@ -4,6 +4,7 @@
 
 #include "coarse_map_nav/evaluation/episode_group.hpp"
 #include "coarse_map_nav/evaluation/progress.hpp"
+#include "coarse_map_nav/learning/torch_predictor.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -91,6 +92,10 @@ std::optional<Stage> stage(const Scene& scene, const Task& task, double mpp,
     }
   }
   return std::nullopt;
+}
+
+std::shared_ptr<OccupancyPredictor> predictor_for(const Plan& plan, const NavigatorParams& params) {
+  return params.perception.uses_color() ? load_predictor(plan.model) : nullptr;
 }
 
 double seconds() {
@@ -207,8 +212,9 @@ void Evaluation::add(const Job& job) {
 
 void Evaluation::work(const std::function<bool()>& is_stopped, ProgressLine& progress) {
   try {
+    std::shared_ptr<OccupancyPredictor> predictor;  // a network is nobody else's meanwhile
     for (std::size_t i; !has_fault_ && !is_stopped() && (i = next_++) < jobs_.size();) {
-      play(jobs_[i], progress);
+      play(jobs_[i], predictor, progress);
     }
   } catch (...) {
     const std::lock_guard<std::mutex> lock{mutex_};
@@ -217,7 +223,8 @@ void Evaluation::work(const std::function<bool()>& is_stopped, ProgressLine& pro
   }
 }
 
-void Evaluation::play(const Job& job, ProgressLine& progress) {
+void Evaluation::play(const Job& job, std::shared_ptr<OccupancyPredictor>& predictor,
+                      ProgressLine& progress) {
   const Task& task = find_task(plan_.tasks[job.task]);
   std::optional<Stage> ready;
   bool is_staged = false;
@@ -234,10 +241,13 @@ void Evaluation::play(const Job& job, ProgressLine& progress) {
       ready = stage(scene, task, row.key.mpp, plan_.judge, row.key.seed);
       is_staged = true;
     }
+    if (!predictor) {
+      predictor = predictor_for(plan_, params);
+    }
     if (ready) {
       row.key.seed = ready->seed;
       row = run_judged_episode(scene, task, ready->drawing, ready->route, method, params,
-                               plan_.judge, row.key, seconds);
+                               plan_.judge, row.key, seconds, {}, predictor);
     } else {
       row.end = kNoRoute;
     }

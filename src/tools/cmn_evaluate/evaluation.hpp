@@ -24,6 +24,9 @@
 
 namespace cmn {
 
+/// The plan's network where these parameters look in colour, else null.
+std::shared_ptr<OccupancyPredictor> predictor_for(const Plan& plan, const NavigatorParams& params);
+
 /// Wall time since some moment [s].
 double seconds();
 
@@ -73,7 +76,7 @@ class Evaluation {
   EpisodeKey key_of(const Job& job, const std::string& method) const;
   void add(const Job& job);
   void work(const std::function<bool()>& is_stopped, ProgressLine& progress);
-  void play(const Job& job, ProgressLine& progress);
+  void play(const Job& job, std::shared_ptr<OccupancyPredictor>& predictor, ProgressLine& progress);
   void keep(const EpisodeRow& row, ProgressLine& progress);
 
   const Plan& plan_;

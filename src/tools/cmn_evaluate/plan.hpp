@@ -29,6 +29,7 @@ struct Plan {
   std::filesystem::path out;
   std::filesystem::path config;
   std::filesystem::path robot;  ///< its description: where its sensors are
+  std::string model;            ///< the network of methods that look in colour
   bool resume = false;
   JudgeParams judge;
 };

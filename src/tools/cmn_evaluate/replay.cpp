@@ -135,7 +135,7 @@ Recording run_again(const Plan& plan, Worlds& worlds, EpisodeKey key,
   };
   recording.trace.row =
       run_judged_episode(scene, task, ready->drawing, ready->route, *method, params, plan.judge,
-                         key, seconds, recorder_of(recording, paint));
+                         key, seconds, recorder_of(recording, paint), predictor_for(plan, params));
   for (const int action : explained) {
     if (action >= static_cast<int>(recording.trace.steps.size())) {
       std::cout << key.id() << " ended before action " << action << "\n";

@@ -86,7 +86,8 @@ std::string scene_name(const std::string& world) {
 }
 
 bool has_heights(const std::string& world, const NavigatorParams& params) {
-  return begins_with(world, kFurnished) || is_gazebo(world) || params.perception.uses_depth();
+  return begins_with(world, kFurnished) || is_gazebo(world) || params.perception.uses_depth() ||
+         params.perception.uses_color();
 }
 
 bool changes_with_heights(const std::string& world) { return begins_with(world, kHouse); }

@@ -29,7 +29,7 @@ class SuddenWall : public SceneSensors {
     const cv::Mat depth_m(60, 80, CV_32FC1, cv::Scalar{has_moved_ ? 0.2 : 3.0});
     return {stamp_s, camera, T_robot_camera_, depth_m};
   }
-  cv::Mat image(const Pose2& /*T_world_robot*/) override { return {}; }
+  ColorImage color(const Pose2& /*T_world_robot*/, double /*stamp_s*/) override { return {}; }
 
  private:
   static constexpr double kAway_m = 0.02;  ///< turning on the spot slips by less

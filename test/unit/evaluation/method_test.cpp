@@ -3,8 +3,10 @@
 #include "coarse_map_nav/evaluation/method.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ascii_map.hpp"
@@ -40,16 +42,17 @@ double free_share(const CoarseMap& map) {
 
 TEST(Task, AnUnknownOneIsRefusedWithAListOfAll) {
   EXPECT_EQ(refusal_of_task("XX"),
-            "task \"XX\" is none of CG, CL, CD, CF, HL, WL, TL, CLK, CFK, HLK, WLK");
-  for (const char* name : {"CG", "CL", "CD", "CF", "HL", "WL"}) {
+            "task \"XX\" is none of CG, CI, HD, CL, CD, CF, HL, WL, TL, CLK, CFK, HLK, WLK");
+  for (const char* name : {"CG", "CI", "HD", "CL", "CD", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).name, name);
   }
 }
 
 TEST(Task, OnlyThePapersOwnKnowsTheHeading) {
-  for (const char* name : {"CG", "CL", "CD", "CF", "HL", "WL"}) {
+  for (const char* name : {"CG", "CI", "HD", "CL", "CD", "CF", "HL", "WL"}) {
     EXPECT_EQ(find_task(name).knows_heading, find_task(name).has_paper_setting);
-    EXPECT_EQ(find_task(name).knows_heading, std::string{name} == "CG");
+    const std::set<std::string> papers_own{"CG", "CI", "HD"};
+    EXPECT_EQ(find_task(name).knows_heading, papers_own.count(name) == 1);
   }
 }
 
@@ -113,21 +116,26 @@ TEST(Method, AllOfThePapersAreThere) {
 
 TEST(Method, EachHasItsPresetForEachTask) {
   for (const std::string& name : method_names()) {
-    for (const char* task : {"CG", "CL", "CD", "CF", "HL", "WL"}) {
+    for (const char* task : {"CG", "CI", "HD", "CL", "CD", "CF", "HL", "WL"}) {
       EXPECT_NO_THROW(method_params(find_method(name), find_task(task), kConfig)) << name;
     }
   }
 }
 
-TEST(Method, OursInADepthPanoramaIsThePresetOfThatName) {
-  NavigatorParams preset;
-  ASSERT_TRUE(load_params(read_param_file(kConfig + "/depth.yaml"), preset).empty());
-  const std::vector<ParamDoc> a = list_params(preset);
-  const std::vector<ParamDoc> b =
-      list_params(method_params(find_method("ours"), find_task("CD"), kConfig));
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].default_value, b[i].default_value) << a[i].path;
+TEST(Method, OursInAPanoramaIsThePresetOfThatSensor) {
+  for (const auto& [task, preset] : {std::pair{"CD", "depth"}, std::pair{"CI", "rgb"}}) {
+    NavigatorParams params;
+    ASSERT_TRUE(load_params(read_param_file(kConfig + "/" + preset + ".yaml"), params).empty());
+    if (find_task(task).has_paper_setting) {
+      params.perception.guard.type = "none";
+    }
+    const std::vector<ParamDoc> a = list_params(params);
+    const std::vector<ParamDoc> b =
+        list_params(method_params(find_method("ours"), find_task(task), kConfig));
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].default_value, b[i].default_value) << a[i].path;
+    }
   }
 }
 

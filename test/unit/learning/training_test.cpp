@@ -137,6 +137,23 @@ TEST(Training, EndsWhenValidationGetsNoBetter) {
   EXPECT_LT(outcome.rows.size(), 50U);
 }
 
+TEST(Training, StartsFromTheWeightsOfAnother) {
+  const std::string data = toy_folder(12);
+  TrainingJob first = short_job(data, fresh_folder("first"));
+  first.params.epochs = 6;
+  const double reached = train(first).rows.back().validation_loss;
+  TrainingJob second = short_job(data, fresh_folder("second"));
+  second.start_from = first.out + "/checkpoint.pt";
+  second.seed = 7;
+  second.params.epochs = 1;
+  second.params.learning_rate = 1e-7;
+  EXPECT_NEAR(train(second).rows.back().validation_loss, reached, 0.05 * reached);
+  TrainingJob other = short_job(data, fresh_folder("other"));
+  other.start_from = second.start_from;
+  other.params.network = "cmn";
+  EXPECT_THAT(error_of([&] { train(other); }), HasSubstr("is a checkpoint of another network"));
+}
+
 TEST(Training, RefusesACheckpointThatIsNotItsOwn) {
   TrainingJob job = short_job(toy_folder(4), fresh_folder("out"));
   job.params.epochs = 1;

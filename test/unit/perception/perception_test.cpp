@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "box_room.hpp"
+#include "fake_predictor.hpp"
 #include <gtest/gtest.h>
 
 namespace cmn {
@@ -149,6 +151,58 @@ TEST(Perception, ThePlannerMayRememberWhatThePanoramaOfTheNextStopLacks) {
 
 TEST(Perception, AnUnknownAccumulatorIsRefused) {
   EXPECT_THROW(Perception{params_of("lidar", "hoarding")}, std::invalid_argument);
+}
+
+ColorImage color_image(int red, double stamp_s = 5.0) {
+  const CameraModel camera = CameraModel::from_field_of_view(160, 120, kPi / 2.0);
+  return {stamp_s, camera, camera_mount(0.1, 0.5, 0.0),
+          cv::Mat(camera.height, camera.width, CV_8UC3, cv::Scalar{0, 0, red * 1.0})};
+}
+
+TEST(Perception, RgbTurnsRoundPredictsOnceItIsRoundAndTheLidarGuards) {
+  const auto predictor = std::make_shared<FakePredictor>();
+  Perception perception{params_of("rgb", "panorama"), predictor};
+  const RangeScan scan = scan_of_boxes({{{1.5, -9.0, 0.0}, {1.6, 9.0, 2.0}}}, 0.3, 360, {});
+  const ColorImage image = color_image(8);
+  SensorData data{&scan};
+  data.color = &image;
+  Percept percept;
+  for (int turn = 0; turn < 5; ++turn) {
+    percept = perception.look(data, {0.0, 0.0, turn * kPi / 2.0}, true);
+    EXPECT_EQ(percept.is_complete, turn == 4) << turn;
+    EXPECT_EQ(percept.seen.stamp_s, 5.0);
+    EXPECT_NEAR(percept.clear_ahead_m, 1.5 - 0.17, 0.05);
+  }
+  EXPECT_EQ(predictor->predictions, 1);
+  EXPECT_EQ(percept.seen.source, ObservationSource::kRgb);
+  for (const LocalOccupancy& seen : {percept.seen, percept.local_map}) {
+    EXPECT_EQ(occupancy_at(seen, -0.45, 0.05), 0.0F);
+    EXPECT_EQ(occupancy_at(seen, 0.05, 0.85), 1.0F);
+    EXPECT_EQ(confidence_at(seen, 0.85, 0.05), 1.0F);
+    EXPECT_EQ(confidence_at(seen, 1.25, 0.05), 0.0F) << "behind it";
+  }
+}
+
+TEST(Perception, RgbWithAMemoryKeepsWhatItSawBeforeItTurned) {
+  Perception perception{params_of("rgb", "rolling"), std::make_shared<FakePredictor>()};
+  const RangeScan scan = scan_of_boxes({}, 0.3, 360, {});
+  const ColorImage image = color_image(30);
+  SensorData data{&scan};
+  data.color = &image;
+  Percept percept = perception.look(data, {}, false);
+  EXPECT_TRUE(percept.is_complete);
+  EXPECT_EQ(confidence_at(percept.seen, 0.05, 0.95), 0.0F);
+  percept = perception.look(data, {0.0, 0.0, kPi / 2.0}, false);
+  EXPECT_EQ(occupancy_at(percept.seen, 0.95, 0.05), 0.0F) << "ahead";
+  EXPECT_EQ(occupancy_at(percept.seen, 0.05, -0.95), 0.0F) << "seen before";
+  EXPECT_EQ(confidence_at(percept.seen, -0.95, 0.05), 0.0F);
+  perception.forget();
+  percept = perception.look(data, {}, false);
+  EXPECT_EQ(confidence_at(percept.seen, 0.05, -0.95), 0.0F);
+}
+
+TEST(Perception, RgbWithoutANetworkIsRefused) {
+  EXPECT_THROW(Perception{params_of("rgb")}, std::invalid_argument);
 }
 
 }  // namespace

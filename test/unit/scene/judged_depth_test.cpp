@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the coarse_map_nav authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// Judged episodes in a furnished house, seen with a depth camera.
+/// Judged episodes in a furnished house, seen with a depth or colour camera.
 #include "coarse_map_nav/evaluation/action_times.hpp"
 #include "coarse_map_nav/evaluation/judged_episode.hpp"
 #include "coarse_map_nav/scene/ray_cast_sensors.hpp"
@@ -10,7 +10,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "fake_predictor.hpp"
 #include <gtest/gtest.h>
 
 namespace cmn {
@@ -39,7 +41,8 @@ Scene furnished_house(const JudgeParams& judge) {
 }
 
 EpisodeRow played(const Scene& scene, const JudgeParams& judge, const std::string& task_name,
-                  const std::string& method_name, int max_actions) {
+                  const std::string& method_name, int max_actions,
+                  std::shared_ptr<OccupancyPredictor> predictor = nullptr) {
   const Task& task = find_task(task_name);
   const Method& method = find_method(method_name);
   NavigatorParams params = method_params(method, task, kSource + "/config");
@@ -48,8 +51,10 @@ EpisodeRow played(const Scene& scene, const JudgeParams& judge, const std::strin
   const Drawing drawing = draw(task, scene.map, nullptr, 0.4, 1, judge.simulation.robot.radius_m);
   const std::optional<Route> route = sample_route(scene, drawing, judge, seed);
   EXPECT_TRUE(route);
-  return run_judged_episode(scene, task, drawing, *route, method, params, judge,
-                            {task_name, scene.name, 0.4, method_name, 0, seed}, [] { return 0.0; });
+  return run_judged_episode(
+      scene, task, drawing, *route, method, params, judge,
+      {task_name, scene.name, 0.4, method_name, 0, seed}, [] { return 0.0; }, {},
+      std::move(predictor));
 }
 
 TEST(JudgedDepth, PivotsAreCountedApartFromActionsAndTakeTime) {
@@ -93,6 +98,19 @@ TEST(JudgedDepth, TheSameSeedGivesTheSameRow) {
               csv_line(played(scene, judge, "CF", method, 10)))
         << method;
   }
+}
+
+TEST(JudgedColor, FourViewsAreOnePredictionAStop) {
+  const JudgeParams judge;
+  const Scene scene = furnished_house(judge);
+  const auto predictor = std::make_shared<FakePredictor>();
+  const EpisodeRow row = played(scene, judge, "CI", "cmn", 6, predictor);
+  EXPECT_EQ(row.actions, 6);
+  EXPECT_GE(row.pivots, 8);
+  // Once a stop, and once for each turn on the spot, which needs no new panorama.
+  EXPECT_EQ(predictor->predictions, row.confidence.looks());
+  EXPECT_EQ(csv_line(row),
+            csv_line(played(scene, judge, "CI", "cmn", 6, std::make_shared<FakePredictor>())));
 }
 
 }  // namespace
