@@ -9,6 +9,12 @@
 #include <utility>
 
 namespace cmn {
+namespace {
+
+/// A look that contradicts the last by so much is to be explained by the drawing, on its own.
+constexpr double kDoubtedShare = 0.05;
+
+}  // namespace
 
 ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
                          double converged_confidence)
@@ -166,6 +172,15 @@ void ScaleFilter::normalise(double total) {
 }
 
 Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
+  Correction outcome = Correction::kApplied;
+  const double contradicted = comparison_.next(seen, T_odom_robot);
+  if (contradicted > params_.carried_share) {
+    reset();
+    compass_.lose();
+    outcome = Correction::kReopened;
+  } else if (contradicted > kDoubtedShare && params_.carried_share < 1.0) {
+    has_fit_ = false;
+  }
   compass_.look(seen, T_odom_robot);
   const Pose2 T_axes_robot = Pose2{0.0, 0.0, -compass_.axes_yaw_rad()} * T_odom_robot;
   Point2 driven;
@@ -181,7 +196,6 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   for (Sheet& sheet : sheets_) {
     move(sheet, turned(driven, sheet.turn_rad));
   }
-  Correction outcome = Correction::kApplied;
   if (news > 0.0 && !weigh(seen, T_axes_robot.yaw, news)) {
     // The odometry led all hypotheses into walls: the robot may be anywhere.
     normalise(spread([](Heading, double, Cell) { return 1.0; }, 1.0));

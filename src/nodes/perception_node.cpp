@@ -7,6 +7,7 @@
 #include "coarse_map_nav/motion/rest_detector.hpp"
 #include "coarse_map_nav/perception/perception.hpp"
 #include "coarse_map_nav/ros/color_input.hpp"
+#include "coarse_map_nav/ros/contact_input.hpp"
 #include "coarse_map_nav/ros/depth_input.hpp"
 #include "coarse_map_nav/ros/node.hpp"
 #include "coarse_map_nav/ros/node_params.hpp"
@@ -134,12 +135,13 @@ class PerceptionNode {
       return;
     }
     // Both views of a panorama are made of the same looks.
-    const cmn::Percept percept =
+    cmn::Percept percept =
         perception_.look(data, T_odom_robot, is_panorama_ || publisher_.has_map_listener());
     if (percept.beams.used == 0 && !depth_ && !color_) {
       input.dropped("no range of the scan is usable");
       return;
     }
+    contacts_.mark(percept.local_map);
     publisher_.publish_guard(percept.clear_ahead_m);
     publisher_.publish(percept, header);
     if (strip_) {
@@ -174,6 +176,7 @@ class PerceptionNode {
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_{tf_buffer_};
   cmn::PerceptPublisher publisher_;
+  cmn::ContactInput contacts_{nh_, tf_buffer_, params_.frames, perception_params().guard.radius_m};
   cmn::RestDetector rest_;
   ros::Time last_stamp_;
   cmn::ScanMemory last_scan_{tf_buffer_, params_.frames};  ///< of a LiDAR beside a camera

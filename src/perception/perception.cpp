@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/perception.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <optional>
@@ -16,6 +17,16 @@ class SingleLooks : public Accumulator {
   LocalOccupancy fuse(LocalOccupancy look, const Pose2& /*T_odom_robot*/) override { return look; }
   void forget() override {}
 };
+
+/// In its plane a LiDAR sees the ground to be free; a seat may stand below that, and a table's top
+/// above.
+void presume_free(LocalOccupancy& of_plane) {
+  for (std::size_t i = 0; i < of_plane.cell_count(); ++i) {
+    if (of_plane.occupancy[i] <= 0.5F) {
+      of_plane.confidence[i] = std::min(of_plane.confidence[i], kPresumed);
+    }
+  }
+}
 
 }  // namespace
 
@@ -102,9 +113,11 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
     if (params_.uses_color()) {
       return view.camera_projector.project(of_camera);
     }
-    return params_.uses_scan() && params_.uses_depth()
-               ? nearest_of(of_guard, view.camera_projector.project(of_camera))
-               : std::move(of_guard);
+    if (!params_.uses_scan() || !params_.uses_depth()) {
+      return std::move(of_guard);
+    }
+    presume_free(of_guard);
+    return nearest_of(of_guard, view.camera_projector.project(of_camera));
   };
 
   Percept percept;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/rolling_map.hpp"
 
+#include "coarse_map_nav/data/look_contradiction.hpp"
 #include "coarse_map_nav/data/whole_number.hpp"
 
 #include <algorithm>
@@ -275,7 +276,9 @@ LocalOccupancy RollingMap::all_known(LocalOccupancy look, const Pose2& T_map_rob
 LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) {
   // The square of the look fits into the window however it is turned.
   const int window = static_cast<int>(std::ceil(std::sqrt(2.0) * look.size)) + 2;
-  const bool is_first = confidence_.width() != window || resolution_ != look.resolution;
+  const bool is_first =
+      confidence_.width() != window || resolution_ != look.resolution ||
+      contradiction(last_, look, inverse(T_odom_last_) * T_odom_robot) > params_.carried_share;
   if (is_first) {
     occupancy_ = {window, window};
     confidence_ = {window, window};
@@ -292,11 +295,12 @@ LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) 
     middle_ = here;
   } else {
     scroll_to(here);
-    age(norm(T_odom_robot.position() - last_));
+    age(norm(T_odom_robot.position() - T_odom_last_.position()));
   }
-  last_ = T_odom_robot.position();
+  T_odom_last_ = T_odom_robot;
   fold_in(look, T_map_robot);
-  return all_known(std::move(look), T_map_robot);
+  last_ = all_known(std::move(look), T_map_robot);
+  return last_;
 }
 
 }  // namespace cmn

@@ -26,6 +26,7 @@ class FuzzFolder {
   FuzzFolder(const FuzzFolder&) = delete;
   FuzzFolder& operator=(const FuzzFolder&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   /// Returns the path.
   std::string write(const std::string& name, const std::string& content) const {
     const std::string path = path_ / name;

@@ -198,6 +198,7 @@ TEST(ScaleFilterHeadingsProperty, EightAreAsStateByState) {
     params.headings = Exhaustive::kDirections;
     params.scales = 1;
     params.compass.enabled = false;
+    params.carried_share = 1.0;
     ScaleFilter filter{map, params, 0.5};
     Exhaustive exhaustive{map, params};
     // Off the axes, so that no ray runs along a border of cells.

@@ -103,4 +103,35 @@ inline LocalOccupancy reference_occupancy(const pcl::PointCloud<pcl::PointXYZ>::
   return seen;
 }
 
+/// Of the cells that both have seen.
+struct Comparison {
+  int both = 0;
+  int differ = 0;
+  double agreement() const { return both == 0 ? 0.0 : 1.0 - 1.0 * differ / both; }
+};
+
+/// A cell differs when the other has nothing of its kind within a cell of it: the middles of voxels
+/// are not the points.
+inline Comparison compare(const LocalOccupancy& ours, const LocalOccupancy& theirs) {
+  Comparison result;
+  for (int y = 1; y + 1 < ours.size; ++y) {
+    for (int x = 1; x + 1 < ours.size; ++x) {
+      const std::size_t i = ours.index_of(x, y);
+      if (ours.confidence[i] != 1.0F || theirs.confidence[i] != 1.0F) {
+        continue;
+      }
+      ++result.both;
+      bool has_match = false;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          has_match |= (theirs.occupancy[ours.index_of(x + dx, y + dy)] > 0.5F) ==
+                       (ours.occupancy[i] > 0.5F);
+        }
+      }
+      result.differ += !has_match;
+    }
+  }
+  return result;
+}
+
 }  // namespace cmn

@@ -6,6 +6,7 @@
 
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/look_contradiction.hpp"
 #include "coarse_map_nav/localization/hit_field.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/range_table.hpp"
@@ -133,6 +134,7 @@ class ScaleFilter : public Localizer {
   WeightLayer scratch_;
   WallCompass compass_;
   std::optional<Point2> p_odom_last_;
+  LookComparison comparison_;
   Belief belief_;  ///< scales and turns summed out, layers by the robot's heading
   std::vector<std::pair<Heading, std::uint32_t>> shown_;  ///< cells of belief_ that are not 0,
   bool is_shown_listed_ = true;                           ///< while they are few

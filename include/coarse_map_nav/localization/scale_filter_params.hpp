@@ -32,6 +32,7 @@ struct ScaleFilterParams {
   double reopen_fit = -0.8;
   double reopen_way_m = 2.0;
   double reopen_share = 0.3;
+  double carried_share = 0.2;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("compass", self.compass);
@@ -77,6 +78,9 @@ struct ScaleFilterParams {
           "[m] the way over which that mean is taken");
     visit("reopen_share", self.reopen_share, Between{0.0, 1.0},
           "[-] share of a uniform belief mixed in then");
+    visit("carried_share", self.carried_share, Between{0.0, 1.0},
+          "[-] the belief starts over when so much of what stands in a look is amid what the last "
+          "saw to be free, and the other way round: the robot was carried; 1: never");
     visit("blocked_share", self.blocked_share, Between{0.0, 1.0},
           "[-] so much of the belief that would have to pass a drawn wall stays before it");
   }

@@ -89,6 +89,7 @@ class Perception {
   explicit Perception(const PerceptionParams& params,
                       std::shared_ptr<OccupancyPredictor> predictor = nullptr);
 
+  /// Of both sensors, ground that the LiDAR alone sees to be free is presumed to be (kPresumed).
   /// `data` was measured with the robot at `T_odom_robot`, which `accumulate: none` makes no use
   /// of.
   Percept look(const SensorData& data, const Pose2& T_odom_robot, bool with_local_map);

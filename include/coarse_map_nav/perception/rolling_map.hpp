@@ -18,6 +18,7 @@ struct RollingMapParams {
   double most_looks = 0.5;
   double memory_m = 6.0;
   double align_deg = 5.0;
+  double carried_share = 0.2;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("most_looks", self.most_looks, Between{0.1, 100.0},
@@ -28,6 +29,10 @@ struct RollingMapParams {
         "align_deg", self.align_deg, Between{0.0, 20.0},
         "[deg] rolling map: a look is turned by up to this, and moved by a cell, to where it fits "
         "what was seen before; 0: as odometry says");
+    visit(
+        "carried_share", self.carried_share, Between{0.0, 1.0},
+        "[-] rolling map: what was seen is forgotten when so much of what stands in a look is amid "
+        "what was seen to be free, and the other way round: the robot was carried; 1: never");
   }
 };
 
@@ -68,7 +73,8 @@ class RollingMap : public Accumulator {
   double resolution_ = 0.0;
   Pose2 T_map_odom_;  ///< what odometry has drifted since the beginning
   Cell middle_;       ///< cell of the map's frame that the window is about
-  Point2 last_;       ///< where the robot was
+  Pose2 T_odom_last_;
+  LocalOccupancy last_;  ///< what was known then
 };
 
 }  // namespace cmn

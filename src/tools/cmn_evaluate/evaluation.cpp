@@ -121,8 +121,8 @@ Evaluation::Evaluation(const Plan& plan, EpisodeLog& log) : plan_{plan}, log_{lo
 }
 
 void Evaluation::open_worlds() {
-  const double finest = *std::min_element(plan_.mpps.begin(), plan_.mpps.end());
   std::set<std::string> names;
+  std::set<std::pair<std::string, bool>> seen;  // worlds, with heights or without
   for (const std::string& world : plan_.worlds) {
     if (!names.insert(scene_name(world)).second) {
       throw std::runtime_error(world + ": another world is called " + scene_name(world));
@@ -130,21 +130,24 @@ void Evaluation::open_worlds() {
     for (const auto& [task, methods] : params_) {
       std::map<bool, std::string> examples;  // of those that see it with heights, and without
       for (const auto& [method, params] : methods) {
-        const bool with_heights = has_heights(world, params);
-        examples[with_heights] = method;
-        const double cell_m = worlds_.open(world, with_heights).map.resolution();
-        if (finest < cell_m) {
-          std::ostringstream text;
-          text << "--mpp " << finest << " is finer than " << world << ", which has cells of "
-               << cell_m << " m";
-          throw std::runtime_error(text.str());
-        }
+        examples[has_heights(world, params)] = method;
+        seen.emplace(world, has_heights(world, params));
       }
       if (examples.size() > 1 && changes_with_heights(world)) {
         throw std::runtime_error(world + " has heights for " + examples[true] + " and none for " +
                                  examples[false] + " in " + task + ": furnished:" +
                                  world.substr(world.find(':') + 1) + " has them for all");
       }
+    }
+  }
+  const double finest = *std::min_element(plan_.mpps.begin(), plan_.mpps.end());
+  for (const auto& [world, with_heights] : seen) {
+    const double cell_m = worlds_.open(world, with_heights).map.resolution();
+    if (finest < cell_m) {
+      std::ostringstream text;
+      text << "--mpp " << finest << " is finer than " << world << ", which has cells of " << cell_m
+           << " m";
+      throw std::runtime_error(text.str());
     }
   }
 }

@@ -65,8 +65,8 @@ TEST(Perception, FusedTheNearestObstacleWinsAndTheLidarAloneGuards) {
   EXPECT_EQ(fused.seen.source, ObservationSource::kFused);
   EXPECT_EQ(occupancy_at(fused.seen, 1.05, 0.0), 1.0F) << "the table";
   EXPECT_EQ(confidence_at(fused.seen, 1.55, 0.0), 0.0F) << "what is under it is not seen";
-  EXPECT_EQ(confidence_at(fused.seen, -1.0, 0.0), 1.0F) << "behind it looks the LiDAR";
-  EXPECT_EQ(confidence_at(fused.seen, 0.35, 0.0), 1.0F)
+  EXPECT_EQ(confidence_at(fused.seen, -1.0, 0.0), kPresumed) << "behind it looks the LiDAR";
+  EXPECT_EQ(confidence_at(fused.seen, 0.35, 0.0), kPresumed)
       << "and where it is too near for the camera";
   EXPECT_EQ(occupancy_at(fused.local_map, 1.05, 0.0), 1.0F);
   EXPECT_EQ(fused.clear_ahead_m, kInf);
@@ -115,6 +115,21 @@ TEST(Perception, APanoramaIsPartialUntilAllFourLooksAreThere) {
   }
   perception.forget();
   EXPECT_FALSE(perception.look({nullptr, &image}, {}, true).is_complete);
+}
+
+TEST(Perception, ALidarThatSeesOverATableDoesNotMakeTheRobotForgetIt) {
+  PerceptionParams params = params_of("fused", "rolling");
+  Perception perception{params};
+  const RangeScan scan = scan_of_boxes(kTable, 0.3, 360, {});
+  const DepthImage image = depth_of(kTable);
+  EXPECT_EQ(occupancy_at(perception.look({&scan, &image}, {}, true).local_map, 1.05, 0.0), 1.0F);
+  // Turned away from the table, and past its edge as far as the LiDAR can tell.
+  const DepthImage nothing = depth_of({});
+  Percept percept;
+  for (int look = 0; look < 4; ++look) {
+    percept = perception.look({&scan, &nothing}, {0.0, 0.0, kPi / 2.0}, true);
+  }
+  EXPECT_GT(occupancy_at(percept.local_map, 0.0, -1.05), 0.5F);
 }
 
 TEST(Perception, ThePlannerMayRememberWhatThePanoramaOfTheNextStopLacks) {

@@ -180,6 +180,23 @@ TEST(RollingMap, ItsWallsStayWhereTheyAreAlthoughOdometryTurnsAway) {
   EXPECT_EQ(share_of_ghosts(RollingMapParams{}.align_deg), 0.0);
 }
 
+TEST(RollingMap, ForgetsWhenItIsCarriedElsewhere) {
+  // From the middle of the room to near its corner: old walls are left behind the new ones.
+  const auto farthest_behind = [](double carried_share) {
+    RollingMapParams params = lasting();
+    params.carried_share = carried_share;
+    RollingMap map{params};
+    map.fuse(look_at_room({2.5, 2.0, 0.0}), {});
+    double least = 0.0;
+    for (const Point2 p : occupied(map.fuse(look_at_room({1.2, 1.0, 0.0}), {0.15, 0.0, 0.0}))) {
+      least = std::min(least, p.x);
+    }
+    return least;
+  };
+  EXPECT_GT(farthest_behind(RollingMapParams{}.carried_share), -1.5);
+  EXPECT_LT(farthest_behind(1.0), -2.0);
+}
+
 TEST(RollingMap, WhatLeavesTheWindowIsGone) {
   for (const double step_m : {0.1, 0.35, -0.7, 9.0, -30.0}) {
     for (const bool is_along_x : {true, false}) {
