@@ -45,10 +45,9 @@ void WallCompass::look(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
   if (T_odom_last_) {
     const double turned_rad = std::abs(wrap_angle(T_odom_robot.yaw - T_odom_last_->yaw));
     const double driven_m = norm(T_odom_robot.position() - T_odom_last_->position());
-    sigma_deg_ = std::sqrt(squared(sigma_deg_) +
-                           squared(params_.drift_per_turn_deg) * turned_rad / (kPi / 2.0) +
-                           squared(params_.drift_per_m_deg) * driven_m +
-                           squared(params_.drift_per_look_deg));
+    sigma_deg_ = std::sqrt(
+        squared(sigma_deg_) + squared(params_.drift_per_turn_deg) * turned_rad / (kPi / 2.0) +
+        squared(params_.drift_per_m_deg) * driven_m + squared(params_.drift_per_look_deg));
   }
   T_odom_last_ = T_odom_robot;
   const std::vector<Point2> hits = surface_of(seen);

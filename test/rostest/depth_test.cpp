@@ -12,8 +12,8 @@
 
 #include "box_room.hpp"
 #include "depth_images.hpp"
+#include "robot_transforms.hpp"
 #include "ros_graph.hpp"
-#include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -21,8 +21,6 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/Float32.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 namespace cmn {
 namespace {
@@ -51,32 +49,6 @@ class DepthTest : public testing::Test {
   void TearDown() override {
     node_.reset();
     ros::param::del("/perception");
-  }
-
-  void mount_camera() {
-    geometry_msgs::TransformStamped mount;
-    mount.header.stamp = ros::Time::now();
-    mount.header.frame_id = "base_link";
-    mount.child_frame_id = "camera";
-    const Eigen::Quaterniond q{kMount.linear()};
-    mount.transform.rotation.x = q.x();
-    mount.transform.rotation.y = q.y();
-    mount.transform.rotation.z = q.z();
-    mount.transform.rotation.w = q.w();
-    mount.transform.translation.x = kMount.translation().x();
-    mount.transform.translation.z = kMount.translation().z();
-    geometry_msgs::TransformStamped laser = mount;
-    laser.child_frame_id = "laser";
-    laser.transform = transform_message({});
-    mounts_.sendTransform(std::vector<geometry_msgs::TransformStamped>{mount, laser});
-  }
-  void send_odometry(const ros::Time& stamp, const Pose2& T_odom_robot) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = stamp;
-    transform.header.frame_id = "odom";
-    transform.child_frame_id = "base_link";
-    transform.transform = transform_message(T_odom_robot);
-    odometry_.sendTransform(transform);
   }
 
   static sensor_msgs::Image image_at(const Pose2& T_odom_robot) {
@@ -127,7 +99,7 @@ class DepthTest : public testing::Test {
     ASSERT_TRUE(wait_for([&] {
       infos_.publish(camera_info());
       const sensor_msgs::Image image = image_at(T_odom_robot);
-      send_odometry(image.header.stamp, T_odom_robot);
+      transforms_.send_odometry(image.header.stamp, T_odom_robot);
       images_.publish(image);
       wait_for([] { return false; }, 0.05);  // a camera has a rate
       return !local_.empty() && is_it(local_.back());
@@ -143,7 +115,7 @@ class DepthTest : public testing::Test {
     Message now = message;
     EXPECT_TRUE(wait_for([&] {
       now.header.stamp = ros::Time::now();
-      send_odometry(now.header.stamp, {});
+      transforms_.send_odometry(now.header.stamp, {});
       publisher.publish(now);
       return wait_for([&] { return count() > before; }, 0.3);
     })) << node_->output();
@@ -164,8 +136,7 @@ class DepthTest : public testing::Test {
   ros::Publisher clouds_ = nh_.advertise<sensor_msgs::PointCloud2>("points", 10);
   ros::Publisher scans_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
   ros::Publisher observe_ = nh_.advertise<std_msgs::Empty>("observe", 1);
-  tf2_ros::StaticTransformBroadcaster mounts_;
-  tf2_ros::TransformBroadcaster odometry_;
+  RobotTransforms transforms_;
   Inbox<coarse_map_nav::LocalOccupancy> local_{"local_occupancy"};
   Inbox<std_msgs::Float32> clear_{"clear_ahead"};
   Inbox<sensor_msgs::Image> panoramas_{"panorama"};
@@ -187,7 +158,7 @@ TEST_F(DepthTest, BadInputIsDroppedAndCountedAndTheNextGoodOneIsUsed) {
   EXPECT_TRUE(local_.empty());
   EXPECT_TRUE(clear_.empty()) << "nobody knows what is ahead";
 
-  mount_camera();
+  transforms_.mount_sensors(kMount);
   expect_drop(images_, image_at({}), "the depth image has no camera_info yet");
   sensor_msgs::CameraInfo info = camera_info();
   info.K[0] = 0.0;
@@ -229,13 +200,13 @@ TEST_F(DepthTest, BadInputIsDroppedAndCountedAndTheNextGoodOneIsUsed) {
 
 TEST_F(DepthTest, AnImageWaitsForItsTransformAndACloudIsAsGood) {
   start("depth", "rolling");
-  mount_camera();
+  transforms_.mount_sensors(kMount);
   look_until({}, [](const auto& /*local*/) { return true; });
   local_.clear();
   sensor_msgs::PointCloud2 cloud = cloud_at({});
   clouds_.publish(cloud);
   EXPECT_FALSE(wait_for([this] { return !local_.empty(); }, 0.3)) << "odometry is still to come";
-  send_odometry(cloud.header.stamp + ros::Duration(0.01), {});
+  transforms_.send_odometry(cloud.header.stamp + ros::Duration(0.01), {});
   ASSERT_TRUE(wait_for([this] { return !local_.empty(); })) << node_->output();
   EXPECT_EQ(local_.back().header.stamp, cloud.header.stamp);
   EXPECT_GT(occupancy_at(local_.back(), 1.55, 0.0), 0.5F);
@@ -243,7 +214,7 @@ TEST_F(DepthTest, AnImageWaitsForItsTransformAndACloudIsAsGood) {
 
 TEST_F(DepthTest, APanoramaIsPartialUntilTheRobotHasTurnedRoundAtRest) {
   start("depth", "panorama");
-  mount_camera();
+  transforms_.mount_sensors(kMount);
   for (int turn = 0; turn < 4; ++turn) {
     SCOPED_TRACE(turn);
     look_until({0.0, 0.0, turn * kPi / 2.0}, [](const auto& local) { return local.partial != 0; });
@@ -255,7 +226,7 @@ TEST_F(DepthTest, APanoramaIsPartialUntilTheRobotHasTurnedRoundAtRest) {
   for (int i = 0; i < 10; ++i) {
     const Pose2 pose{0.0, 0.0, 3.0 * kPi / 2.0 + 0.1 * i};
     const sensor_msgs::Image image = image_at(pose);
-    send_odometry(image.header.stamp, pose);
+    transforms_.send_odometry(image.header.stamp, pose);
     images_.publish(image);
     wait_for([] { return false; }, 0.03);
   }
@@ -274,7 +245,7 @@ TEST_F(DepthTest, APanoramaIsPartialUntilTheRobotHasTurnedRoundAtRest) {
 
 TEST_F(DepthTest, FusedTheLidarGuardsAndSeesWhatIsBehindTheCamera) {
   start("fused", "none");
-  mount_camera();
+  transforms_.mount_sensors(kMount);
   sensor_msgs::LaserScan scan;
   scan.header.frame_id = "laser";
   scan.angle_min = static_cast<float>(-kPi);
@@ -288,7 +259,7 @@ TEST_F(DepthTest, FusedTheLidarGuardsAndSeesWhatIsBehindTheCamera) {
   ASSERT_TRUE(wait_for([&] {
     sensor_msgs::Image image = image_at({});
     scan.header.stamp = image.header.stamp;
-    send_odometry(image.header.stamp, {});
+    transforms_.send_odometry(image.header.stamp, {});
     scans_.publish(scan);
     wait_for([] { return false; }, 0.05);
     images_.publish(image);
