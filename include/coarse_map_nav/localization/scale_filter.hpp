@@ -52,8 +52,7 @@ class ScaleFilter : public Localizer {
   std::vector<double> scale_marginal() const;
   /// P(turn), quarter turns summed out, in the order of turn_of().
   std::vector<double> turn_marginal() const;
-  /// Mean log likelihood of the rays at the best hypothesis, averaged over the way [nats]; about 0
-  /// where everything fits.
+  /// Mean log likelihood of the rays at the best hypothesis, over the way [nats]; 0: all fits.
   double fit() const { return fit_; }
   double scale_of(int i) const { return sheets_[static_cast<std::size_t>(i * turns())].scale; }
   /// How far the axes of the drawing may be turned from those that the robot keeps to: evenly
