@@ -164,7 +164,7 @@ refused "absent.urdf" "${home[@]}" --robot "$out/absent.urdf"
 refused "house:x is no house" --world house:x --out "$out/refused"
 refused "nowhere.yaml" --world "$out/nowhere.yaml" --out "$out/refused"
 refused "another world is called home" "${home[@]}" --world "$worlds/home.yaml"
-refused 'method "magic" is none of ours, rolling, depth_rolling, fused, cmn' "${home[@]}" --method magic
+refused 'method "magic" is none of ours, rolling, depth_rolling, fused, rgb_rolling, cmn' "${home[@]}" --method magic
 refused 'variant "none" of ours is none of all, no_belief_policy' "${home[@]}" --method ours+none
 refused "ours+no_rolling_map changes nothing" "${home[@]}" --method ours,ours+no_rolling_map
 refused "absent.yaml" "${home[@]}" --variants "$out/absent.yaml"

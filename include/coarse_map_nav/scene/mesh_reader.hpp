@@ -18,7 +18,7 @@ namespace cmn {
 /// Textures are looked for where the file says, beside it, and in ../materials/textures, as Gazebo
 /// does. What can be survived (a texture that is missing or unreadable, broken triangles) is added
 /// to `warnings`, a sentence each. Throws std::runtime_error, naming the file, when no triangle
-/// comes of it.
+/// comes of it. Another process reads the file first, since some broken ones crash their reader.
 MeshScene read_mesh(const std::string& path, std::vector<std::string>& warnings);
 
 /// The same of a file inside a zip archive; so are its textures.

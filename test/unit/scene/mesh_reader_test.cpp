@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "file_fixture.hpp"
 #include <gmock/gmock.h>
@@ -97,6 +99,20 @@ TEST(MeshReader, WhatIsNoMeshIsAnErrorThatNamesTheFile) {
     }
   }
   EXPECT_THAT(error_of([&] { read_mesh("/none/a.obj", warnings); }), HasSubstr("/none/a.obj"));
+}
+
+TEST(MeshReader, AFileThatCrashesItsReaderIsAnError) {
+  // Corners far beyond the array, which says that it is long enough.
+  std::string broken = collada("Z_UP", "1");
+  for (const auto& [said, lie] :
+       {std::pair<std::string, std::string>{"count='9'", "count='900000000'"},
+        {"count='3'", "count='300000000'"},
+        {"<p>0 1 2<", "<p>0 1 299999999<"}}) {
+    broken.replace(broken.find(said), said.size(), lie);
+  }
+  std::vector<std::string> warnings;
+  EXPECT_THAT(error_of([&] { read_mesh(file_with("long.dae", broken), warnings); }),
+              HasSubstr("long.dae"));
 }
 
 TEST(MeshReader, BrokenTrianglesAreLeftOut) {
