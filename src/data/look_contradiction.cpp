@@ -61,9 +61,9 @@ double contradiction(const LocalOccupancy& before, const LocalOccupancy& now,
   const std::vector<Point2> surface_now = surface_of(now);
   double least = 1.0;
   for (const double turn_rad : kTurns_rad) {
-    const Pose2 T{T_before_now.x, T_before_now.y, T_before_now.yaw + turn_rad};
-    least = std::min({least, contradicted_share(surface_now, before, T),
-                      contradicted_share(surface_before, now, inverse(T))});
+    const Pose2 T_turned{T_before_now.x, T_before_now.y, T_before_now.yaw + turn_rad};
+    least = std::min({least, contradicted_share(surface_now, before, T_turned),
+                      contradicted_share(surface_before, now, inverse(T_turned))});
     if (least < kNothing) {
       break;  // as nearly always, by what odometry says
     }
