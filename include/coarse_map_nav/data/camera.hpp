@@ -37,7 +37,7 @@ struct ColorImage {
   double stamp_s = 0.0;
   CameraModel camera;
   Eigen::Isometry3d T_robot_camera = Eigen::Isometry3d::Identity();  ///< base_link <- optical frame
-  cv::Mat bgr;  ///< CV_8UC3, height x width
+  cv::Mat bgr;                                                       ///< CV_8UC3, height x width
 };
 
 /// One depth image and where it was taken from.
