@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A number of `bytes` bytes, the lowest first, as zip files have them.
-std::string little(std::uint32_t value, int bytes) {
+std::string little(std::uint64_t value, int bytes) {
   std::string text;
   for (int i = 0; i < bytes; ++i) {
     text += static_cast<char>(value >> (8 * i));
