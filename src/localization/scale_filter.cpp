@@ -90,6 +90,7 @@ void ScaleFilter::start(const Weights& weight_of) {
     sheet.layers.fill(no_weights());
   }
   p_odom_last_.reset();
+  comparison_ = {};  // a pose that is told after the robot was carried is to last
   yaw_rad_ = 0.0;
   has_fit_ = false;
   normalise(spread(weight_of, 1.0));
@@ -176,6 +177,7 @@ Correction ScaleFilter::update(const LocalOccupancy& seen, const Pose2& T_odom_r
   const double contradicted = comparison_.next(seen, T_odom_robot);
   if (contradicted > params_.carried_share) {
     reset();
+    comparison_.next(seen, T_odom_robot);  // reset() has forgotten this look, too
     compass_.lose();
     outcome = Correction::kReopened;
   } else if (contradicted > kDoubtedShare && params_.carried_share < 1.0) {

@@ -141,6 +141,21 @@ TEST(ScaleFilter, FindsItselfAgainAfterBeingPutElsewhere) {
   EXPECT_GE(times_found_again(ScaleFilterParams{}, 40), 6);
 }
 
+TEST(ScaleFilter, KeepsThePoseThatItIsToldAfterBeingPutElsewhere) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    ScaleFilter filter{flat(), ScaleFilterParams{}, kConverged};
+    Wanderer robot{seed};
+    for (int i = 0; i < 10; ++i) {
+      robot.step_and_look(filter);
+    }
+    robot.be_put_elsewhere();
+    filter.reset_near(robot.T_world_robot, 0.3, 0.1);
+    EXPECT_EQ(filter.update(robot.look(), robot.T_odom_robot), Correction::kApplied);
+    EXPECT_TRUE(robot.is_found_by(filter));
+  }
+}
+
 TEST(ScaleFilter, FindsItselfAgainByWhatItsBestHypothesisCannotExplain) {
   ScaleFilterParams params;
   params.carried_share = 1.0;
