@@ -4,6 +4,7 @@
 
 #include "coarse_map_nav/data/whole_number.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
