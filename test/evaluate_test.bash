@@ -191,6 +191,9 @@ refused "/nowhere" "${home[@]}" --config /nowhere
 refused "--shard is i/n" "${home[@]}" --shard 2/2
 refused "--resume" --world "$worlds/home.yaml" --out "$out/whole"
 refused "another --seed" --world "$worlds/home.yaml" --method cmn --episodes 3 --seed 2 --out "$out/whole" --resume
+printf 'least_way_m: 1\n' >"$out/other_judge.yaml"
+refused "--resume needs the options" --world "$worlds/home.yaml" --method cmn --episodes 3 --judge "$out/other_judge.yaml" \
+  --out "$out/whole" --resume
 refused "/proc/refused" --world "$worlds/home.yaml" --out /proc/refused
 printf 'P5\n60 60\n255\n' >"$out/full.pgm"
 head -c 3600 /dev/zero >>"$out/full.pgm"

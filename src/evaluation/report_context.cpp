@@ -39,14 +39,13 @@ bool agree(const ReportContext& a, const ReportContext& b) {
   });
 }
 
-/// Whether the episodes of two runs belong into one table.
+}  // namespace
+
 bool are_alike(const ReportContext& a, const ReportContext& b) {
   return a.seed == b.seed && a.robot_radius_m == b.robot_radius_m &&
          a.success_radius_m == b.success_radius_m && a.horizon == b.horizon &&
          a.version == b.version && agree(a, b);
 }
-
-}  // namespace
 
 void write_context(const ReportContext& context, const std::string& path) {
   YAML::Emitter yaml;

@@ -19,6 +19,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -168,7 +169,7 @@ std::vector<int> actions_of(const po::variables_map& given) {
   return actions;
 }
 
-int run(int argc, char** argv) {
+po::options_description all_options() {
   po::options_description options{
       "cmn_evaluate --world W.yaml [--world ...] --task CL --mpp 0.4 --method ours,cmn --out "
       "DIR\n\n"
@@ -223,13 +224,24 @@ int run(int argc, char** argv) {
   add_option("gallery", po::value<int>(),
              "run only so many of the worst episodes in --out again, of each --method, and draw "
              "them with their causes");
-  po::variables_map given;
-  po::store(po::parse_command_line(argc, argv, options), given);
-  if (given.count("help") != 0) {
-    std::cout << options;
-    return EXIT_SUCCESS;
+  return options;
+}
+
+/// A drawing in place of those that the tasks make.
+void take_drawing(const po::variables_map& given, cmn::Plan& plan) {
+  plan.map = given["map"].as<std::string>();
+  plan.map_to_world =
+      given.count("map-to-world") != 0 ? given["map-to-world"].as<std::string>() : plan.map;
+  if (plan.worlds.size() != 1 || !given["mpp"].defaulted()) {
+    throw std::runtime_error("--map goes with a single --world and without --mpp");
   }
-  po::notify(given);
+  std::ostringstream mpp;
+  mpp << cmn::read_map(plan.map).resolution();
+  plan.mpps = {resolution_of(mpp.str())};
+}
+
+/// All but its methods. Throws std::runtime_error naming the option at fault.
+cmn::Plan plan_of(const po::variables_map& given) {
   cmn::Plan plan;
   if (given.count("world") != 0) {
     plan.worlds = cmn::expand_houses(split(given["world"].as<std::vector<std::string>>()));
@@ -242,15 +254,7 @@ int run(int argc, char** argv) {
     plan.mpps.push_back(resolution_of(mpp));
   }
   if (given.count("map") != 0) {
-    plan.map = given["map"].as<std::string>();
-    plan.map_to_world =
-        given.count("map-to-world") != 0 ? given["map-to-world"].as<std::string>() : plan.map;
-    if (plan.worlds.size() != 1 || !given["mpp"].defaulted()) {
-      throw std::runtime_error("--map goes with a single --world and without --mpp");
-    }
-    std::ostringstream mpp;
-    mpp << cmn::read_map(plan.map).resolution();
-    plan.mpps = {resolution_of(mpp.str())};
+    take_drawing(given, plan);
   }
   plan.episodes = positive(given, "episodes");
   plan.jobs = positive(given, "jobs");
@@ -268,13 +272,92 @@ int run(int argc, char** argv) {
                                            : find_share() / "config";
   plan.robot = given.count("robot") != 0 ? fs::path{given["robot"].as<std::string>()}
                                          : find_share() / "urdf" / "locobot.urdf";
+  if (given.count("robot") != 0 && !fs::exists(plan.robot)) {
+    throw std::runtime_error("--robot " + plan.robot.string() + " does not exist");
+  }
   plan.model = given.count("model") != 0 ? given["model"].as<std::string>()
                                          : (find_share() / "models" / "wedge.pt").string();
+  plan.resume = given["resume"].as<bool>();
+  return plan;
+}
+
+/// How its episodes are made; `judge` are the changes of the judge.
+cmn::ReportContext context_of(const cmn::Plan& plan, const cmn::ParamTree& judge) {
+  cmn::ReportContext context;
+  context.machine = cmn::machine_text();
+  context.version = CMN_VERSION;
+  context.seed = plan.seed;
+  context.robot_radius_m = plan.judge.simulation.robot.radius_m;
+  context.success_radius_m = plan.judge.success_radius_m;
+  context.settings.emplace_back("judge", judge.empty() ? "as shipped" : changes_text(judge));
+  context.settings.emplace_back("robot", plan.robot.filename().string());
+  context.settings.emplace_back(
+      "furniture", fs::exists(cmn::kFurnitureFolder) ? "meshes, where there are heights" : "boxes");
+  if (!plan.map.empty()) {
+    context.settings.emplace_back("map", plan.map + " with " + plan.map_to_world);
+  }
+  for (const cmn::Method& method : plan.methods) {
+    if (!method.changes.empty()) {
+      context.settings.emplace_back(method.name, changes_text(method.changes));
+    }
+  }
+  return context;
+}
+
+/// Throws std::runtime_error when what lies in --out was made in another way.
+void require_the_same(const cmn::ReportContext& context, const fs::path& file) {
+  if (!fs::exists(file)) {
+    return;
+  }
+  const cmn::ReportContext before = cmn::read_context(file.string());
+  if (!cmn::are_alike(before, context)) {
+    throw std::runtime_error(
+        "--resume needs the options and the version of the run that it goes "
+        "on with: " +
+        before.command + "\n  " + file.string() + " has what they were");
+  }
+}
+
+/// Plays what is not played yet. Returns the exit code.
+int evaluate(const cmn::Plan& plan, cmn::ReportContext context) {
+  const double start_s = cmn::seconds();
+  const std::string description = (plan.out / "run.yaml").string();
+  cmn::EpisodeLog log{plan.out.string(), plan.resume};
+  cmn::Evaluation evaluation{plan, log};
+  context.horizon = evaluation.horizon();
+  if (!log.rows().empty()) {
+    require_the_same(context, description);
+  }
+  context.is_interrupted = true;  // until the end, which a run that is killed never sees
+  cmn::write_context(context, description);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  evaluation.run([] { return interrupts != 0; });
+  log.finish();
+  context.wall_time_s = cmn::seconds() - start_s;
+  context.is_interrupted = interrupts != 0;
+  cmn::leave_report(log.rows(), context, plan.out);
+  if (context.is_interrupted) {
+    std::cerr << "cmn_evaluate: interrupted; the same command with --resume goes on\n";
+    return 130;  // as the shell does
+  }
+  return EXIT_SUCCESS;
+}
+
+int run(int argc, char** argv) {
+  const po::options_description options = all_options();
+  po::variables_map given;
+  po::store(po::parse_command_line(argc, argv, options), given);
+  if (given.count("help") != 0) {
+    std::cout << options;
+    return EXIT_SUCCESS;
+  }
+  po::notify(given);
+  cmn::Plan plan = plan_of(given);
   cmn::ParamTree judge;
   if (given.count("judge") != 0) {
     judge = judge_changes(given["judge"].as<std::string>(), plan.judge);
   }
-  plan.resume = given["resume"].as<bool>();
   std::vector<std::string> replayed;
   if (given.count("replay") != 0) {
     replayed = split(given["replay"].as<std::vector<std::string>>());
@@ -296,40 +379,9 @@ int run(int argc, char** argv) {
     cmn::leave_gallery(plan, static_cast<std::size_t>(positive(given, "gallery")));
     return EXIT_SUCCESS;
   }
-  cmn::ReportContext context;
+  cmn::ReportContext context = context_of(plan, judge);
   context.command = cmn::command_line(argc, argv);
-  context.machine = cmn::machine_text();
-  context.version = CMN_VERSION;
-  context.seed = plan.seed;
-  context.robot_radius_m = plan.judge.simulation.robot.radius_m;
-  context.success_radius_m = plan.judge.success_radius_m;
-  const double start_s = cmn::seconds();
-  cmn::EpisodeLog log{plan.out.string(), plan.resume};
-  cmn::Evaluation evaluation{plan, log};
-  context.horizon = evaluation.horizon();
-  context.settings.emplace_back("judge", judge.empty() ? "as shipped" : changes_text(judge));
-  context.settings.emplace_back("robot", plan.robot.filename().string());
-  context.settings.emplace_back(
-      "furniture", fs::exists(cmn::kFurnitureFolder) ? "meshes, where there are heights" : "boxes");
-  for (const cmn::Method& method : plan.methods) {
-    if (!method.changes.empty()) {
-      context.settings.emplace_back(method.name, changes_text(method.changes));
-    }
-  }
-  context.is_interrupted = true;  // until the end, which a run that is killed never sees
-  cmn::write_context(context, (plan.out / "run.yaml").string());
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  evaluation.run([] { return interrupts != 0; });
-  log.finish();
-  context.wall_time_s = cmn::seconds() - start_s;
-  context.is_interrupted = interrupts != 0;
-  cmn::leave_report(log.rows(), context, plan.out);
-  if (context.is_interrupted) {
-    std::cerr << "cmn_evaluate: interrupted; the same command with --resume goes on\n";
-    return 130;  // as the shell does
-  }
-  return EXIT_SUCCESS;
+  return evaluate(plan, std::move(context));
 }
 
 }  // namespace

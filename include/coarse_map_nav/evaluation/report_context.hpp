@@ -28,10 +28,12 @@ struct ReportContext {
 void write_context(const ReportContext& context, const std::string& path);
 ReportContext read_context(const std::string& path);
 
+/// Whether their episodes belong into one table: seed, radii, horizon, version and the values of
+/// settings that both have are the same.
+bool are_alike(const ReportContext& a, const ReportContext& b);
+
 /// Of several runs to be merged: what they have in common, each run's command, machine and time
-/// among the settings. Throws std::runtime_error when they differ in seed, radii, horizon, version
-/// or the value of a setting: their episodes do not belong into one table. `runs` must not be
-/// empty.
+/// among the settings. Throws std::runtime_error when they are not alike. `runs` must not be empty.
 ReportContext merge_contexts(const std::vector<ReportContext>& runs);
 
 }  // namespace cmn

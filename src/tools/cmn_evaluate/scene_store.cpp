@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_store.hpp"
 
+#include "coarse_map_nav/simulation/robot_description.hpp"
+
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 namespace cmn {
 
-SceneStore::SceneStore(SceneWorldParams params, const SensorMounts& mounts, std::size_t most)
-    : params_{std::move(params)}, mounts_{mounts}, most_{most} {}
+SceneStore::SceneStore(SceneWorldParams params, std::filesystem::path robot, std::size_t most)
+    : params_{std::move(params)}, robot_{std::move(robot)}, most_{most} {}
 
 CoarseMap SceneStore::body(const std::string& name) {
+  if (!mounts_) {
+    const RobotDescription description = read_robot_description(robot_.string());
+    mounts_ = mounts_of(description, description.root, {});
+  }
   SceneWorld world = open_scene_world(name, params_);
   if (!world.warnings.empty()) {
     std::cerr << name << ": " << world.warnings.size()
@@ -25,7 +32,7 @@ SensorMaker SceneStore::sensors(const std::string& name) {
   return [this, name](const LidarParams& lidar, std::uint32_t seed) {
     RayCastSensorParams params;
     params.lidar = lidar;
-    SensorMounts mounts = mounts_;
+    SensorMounts mounts = *mounts_;
     if (lidar.field_of_view_deg < 360.0) {
       mounts.T_robot_lidar.linear().setIdentity();
     }

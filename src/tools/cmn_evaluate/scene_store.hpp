@@ -11,9 +11,11 @@
 #include "coarse_map_nav/simulation/sensor_mounts.hpp"
 
 #include <cstddef>
+#include <filesystem>
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,11 +26,12 @@ namespace cmn {
 /// when they are looked at again. Several threads may use one.
 class SceneStore {
  public:
-  /// Keeps the last `most` >= 1.
-  SceneStore(SceneWorldParams params, const SensorMounts& mounts, std::size_t most);
+  /// Keeps the last `most` >= 1. `robot` is the file of its description, read with the first world.
+  SceneStore(SceneWorldParams params, std::filesystem::path robot, std::size_t most);
 
   /// What stops a robot in a world, by its name as open_scene_world() takes it. Throws what that
-  /// does, and std::runtime_error in a build without the 3D simulator.
+  /// does, and std::runtime_error for a robot that cannot be read or in a build without the 3D
+  /// simulator.
   CoarseMap body(const std::string& name);
   /// Of robots in that world. A LiDAR that does not look all round looks forward, however it is
   /// mounted. The store must outlive what is made.
@@ -40,7 +43,8 @@ class SceneStore {
   void keep(const std::string& name, std::shared_ptr<const RayCaster> caster);
 
   SceneWorldParams params_;
-  SensorMounts mounts_;
+  std::filesystem::path robot_;
+  std::optional<SensorMounts> mounts_;
   std::size_t most_;
   std::mutex mutex_;
   /// The last used first.

@@ -6,7 +6,6 @@
 #include "coarse_map_nav/evaluation/house_generator.hpp"
 #include "coarse_map_nav/mapping/map_reader.hpp"
 #include "coarse_map_nav/mapping/places.hpp"
-#include "coarse_map_nav/simulation/robot_description.hpp"
 
 #include <cstdint>
 #include <exception>
@@ -53,11 +52,6 @@ SceneWorldParams scene_params(const JudgeParams& judge) {
   return params;
 }
 
-SensorMounts mounts_in(const std::filesystem::path& robot) {
-  const RobotDescription description = read_robot_description(robot.string());
-  return mounts_of(description, description.root, {});
-}
-
 }  // namespace
 
 std::vector<std::string> expand_houses(const std::vector<std::string>& worlds) {
@@ -94,8 +88,7 @@ bool changes_with_heights(const std::string& world) { return begins_with(world, 
 
 Worlds::Worlds(const Plan& plan)
     : plan_{plan},
-      store_{scene_params(plan.judge), mounts_in(plan.robot),
-             static_cast<std::size_t>(plan.jobs) + 1} {}
+      store_{scene_params(plan.judge), plan.robot, static_cast<std::size_t>(plan.jobs) + 1} {}
 
 const Scene& Worlds::open(const std::string& world, bool with_heights) {
   std::unique_ptr<Scene>& scene = scenes_[{world, with_heights}];

@@ -34,11 +34,11 @@ bool changes_with_heights(const std::string& world);
 /// Reads each world once.
 class Worlds {
  public:
-  /// Throws std::runtime_error when the robot's description is at fault. `plan` must outlive it.
+  /// `plan` must outlive it.
   explicit Worlds(const Plan& plan);
 
   /// A map, house or scene, and what drawing is given of it. Throws std::runtime_error naming the
-  /// world or the drawing.
+  /// world, the drawing or the robot.
   const Scene& open(const std::string& world, bool with_heights);
   /// One that was opened before; by any thread, as long as none opens another.
   const Scene& opened(const std::string& world, bool with_heights) const {
