@@ -126,6 +126,7 @@ class PerceptionNode {
     }
     if (header.stamp < last_stamp_) {  // of another odometry
       perception_.forget();
+      contacts_.forget();
       rest_.reset();
     }
     last_stamp_ = header.stamp;

@@ -11,20 +11,35 @@ constexpr double kBehindTheBumper_m = 0.05;
 
 }  // namespace
 
+void ContactMemory::drive_to(Point2 position) {
+  driven_m_ += last_ ? norm(position - *last_) : 0.0;
+  last_ = position;
+}
+
+void ContactMemory::forget() {
+  contacts_.clear();
+  last_.reset();
+}
+
 void ContactMemory::add(const Pose2& T_odom_robot) {
-  contacts_.push_back(T_odom_robot * Point2{radius_m_ + kBehindTheBumper_m, 0.0});
+  drive_to(T_odom_robot.position());
+  contacts_.push_back({T_odom_robot * Point2{radius_m_ + kBehindTheBumper_m, 0.0}, driven_m_});
   if (contacts_.size() > kMost) {
     contacts_.pop_front();
   }
 }
 
-void ContactMemory::mark(LocalOccupancy& local, const Pose2& T_odom_robot) const {
+void ContactMemory::mark(LocalOccupancy& local, const Pose2& T_odom_robot) {
+  drive_to(T_odom_robot.position());
+  while (!contacts_.empty() && driven_m_ - contacts_.front().driven_m > kRemembered_m) {
+    contacts_.pop_front();
+  }
   const Pose2 T_robot_odom = inverse(T_odom_robot);
   const auto column_of = [&](double metres) {
     return std::floor(metres / local.resolution + 0.5 * local.size);
   };
-  for (const Point2& contact : contacts_) {
-    const Point2 p = T_robot_odom * contact;
+  for (const Contact& contact : contacts_) {
+    const Point2 p = T_robot_odom * contact.position;
     const double x = column_of(p.x);
     const double y = column_of(p.y);
     if (x >= 0.0 && y >= 0.0 && x < local.size && y < local.size) {

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 
 namespace cmn {
 
@@ -22,14 +23,28 @@ class ContactMemory {
 
   /// Driving ahead, the robot met something. The oldest of many contacts are forgotten.
   void add(const Pose2& T_odom_robot);
-  /// The cells of the contacts become occupied, seen for sure.
-  void mark(LocalOccupancy& local, const Pose2& T_odom_robot) const;
+  /// The cells of the contacts become occupied, seen for sure. To be asked at every look: contacts
+  /// of more than kRemembered_m ago are forgotten, since odometry drifts, and a robot may have been
+  /// carried.
+  void mark(LocalOccupancy& local, const Pose2& T_odom_robot);
+  /// The odometry begins anew.
+  void forget();
+
+  static constexpr double kRemembered_m = 15.0;  ///< of the way driven
 
  private:
   static constexpr std::size_t kMost = 200;
 
+  struct Contact {
+    Point2 position;  ///< [m] in the odometry's frame
+    double driven_m;  ///< by then
+  };
+  void drive_to(Point2 position);
+
   double radius_m_;
-  std::deque<Point2> contacts_;  ///< [m] in the odometry's frame
+  double driven_m_ = 0.0;
+  std::optional<Point2> last_;  ///< where the robot was
+  std::deque<Contact> contacts_;
 };
 
 }  // namespace cmn

@@ -21,6 +21,8 @@ class ContactInput {
 
   /// Once a look. Where the robot is says the newest odometry: who decides on the map stands still.
   void mark(LocalOccupancy& local_map);
+  /// The odometry begins anew.
+  void forget() { memory_.forget(); }
 
  private:
   tf2_ros::Buffer& buffer_;

@@ -42,11 +42,36 @@ TEST(ContactMemory, FarFromWhatWasTouchedNothingChanges) {
   memory.mark(none, {});  // where nobody asked for a local map
 }
 
+TEST(ContactMemory, ForgetsByTheWayDriven) {
+  ContactMemory memory{0.17};
+  memory.add({});
+  const auto is_marked = [&](double x) {
+    LocalOccupancy local = free_ground();
+    memory.mark(local, {x, 0.0, 0.0});
+    return std::count(local.occupancy.begin(), local.occupancy.end(), 1.0F) == 1;
+  };
+  const int looks = static_cast<int>(ContactMemory::kRemembered_m) - 1;
+  for (int i = 1; i <= looks; ++i) {
+    EXPECT_TRUE(is_marked(i % 2)) << i << " m driven";
+  }
+  is_marked((looks + 1) % 2);
+  EXPECT_FALSE(is_marked(looks % 2)) << "too long ago";
+}
+
+TEST(ContactMemory, ForgetsWhenTheOdometryBeginsAnew) {
+  ContactMemory memory{0.17};
+  memory.add({});
+  memory.forget();
+  LocalOccupancy local = free_ground();
+  memory.mark(local, {});
+  EXPECT_EQ(occupancy_at(local, 0.25, 0.05), 0.0F);
+}
+
 TEST(ContactMemory, KeepsTheNewest) {
   ContactMemory memory{0.17};
   memory.add({});
   for (int i = 0; i < 1000; ++i) {
-    memory.add({50.0, 0.0, 0.0});
+    memory.add({5.0, 0.0, 0.0});
   }
   LocalOccupancy local = free_ground();
   memory.mark(local, {});
