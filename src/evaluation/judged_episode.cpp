@@ -40,15 +40,10 @@ CoarseMap drivable_map(const World& world, const CoarseMap& extent, double radiu
 CoarseMap metric(const CoarseMap& drawing, double scale, double cell_m) {
   const double true_cell_m = drawing.resolution() / scale;
   const int cuts = std::max(1, static_cast<int>(std::lround(true_cell_m / cell_m)));
-  Grid<std::uint8_t> occupied{drawing.width() * cuts, drawing.height() * cuts};
-  for (std::size_t i = 0; i < occupied.size(); ++i) {
-    const Cell c = occupied.cell_at(i);
-    occupied[i] = drawing.occupied()({c.x / cuts, c.y / cuts});
-  }
   Pose2 T_map_grid = drawing.T_map_grid();
   T_map_grid.x /= scale;
   T_map_grid.y /= scale;
-  return {std::move(occupied), true_cell_m / cuts, T_map_grid};
+  return {cut(drawing, cuts).occupied(), true_cell_m / cuts, T_map_grid};
 }
 
 /// CMN's "grid observation": the crop of the map about the robot, in its axes. `scale`: metres of

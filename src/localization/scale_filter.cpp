@@ -20,15 +20,15 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
                          double converged_confidence)
     : map_{map},
       params_{params},
+      parts_{map, params.part_m, params.most_parts},
       converged_confidence_{converged_confidence},
-      table_{map, code_},
+      table_{parts_.map(), code_},
       // No ray leaves the field, at any scale.
-      field_{map, params.reach_m * std::max({1.0, params.least_scale, params.greatest_scale}),
+      field_{parts_.map(),
+             params.reach_m * std::max({1.0, params.least_scale, params.greatest_scale}),
              params.field_sigma_m, params.field_random},
       compass_{params.compass},
       belief_{map.width(), map.height()} {
-  stride_ = belief_.stride();
-  per_stride_ = 1.0 / stride_;
   for (int i = 0; i < params.scales; ++i) {
     const double share = params.scales == 1 ? 0.0 : static_cast<double>(i) / (params.scales - 1);
     const double scale =
@@ -56,7 +56,7 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
   reset();
 }
 
-WeightLayer ScaleFilter::no_weights() const { return {belief_.padded_size(), most_listed()}; }
+WeightLayer ScaleFilter::no_weights() const { return {parts_.padded_size(), most_listed()}; }
 
 double ScaleFilter::spread(const Weights& weight_of, double each) {
   double total = 0.0;
@@ -67,10 +67,10 @@ double ScaleFilter::spread(const Weights& weight_of, double each) {
       const auto layer = static_cast<std::size_t>(index(heading));
       WeightLayer& weights = sheet.layers[layer];
       weights.unlist();
-      for (std::size_t i = 0; i < map_.occupied().size(); ++i) {
-        const Cell c = map_.occupied().cell_at(i);
-        const std::size_t at = belief_.padded_index(c);
-        const double share = map_.is_free(c) ? 1.0 : params_.rim_penalty;
+      for (std::size_t i = 0; i < parts_.map().occupied().size(); ++i) {
+        const Cell c = parts_.map().occupied().cell_at(i);
+        const std::size_t at = parts_.padded_index(c);
+        const double share = parts_.map().is_free(c) ? 1.0 : params_.rim_penalty;
         const auto more =
             table_.may_stand(at)
                 ? static_cast<float>(prior * share * weight_of(heading, sheet.turn_rad, c))
@@ -121,7 +121,7 @@ void ScaleFilter::turn_back(double yaw_rad) {
 
 void ScaleFilter::reopen() {
   const double states =
-      static_cast<double>(sheets_.size()) * 4.0 * static_cast<double>(map_.free_count());
+      static_cast<double>(sheets_.size()) * 4.0 * static_cast<double>(parts_.map().free_count());
   const double each = params_.reopen_share / std::max(1e-6, 1.0 - params_.reopen_share) / states;
   normalise(1.0 + spread([](Heading, double, Cell) { return 1.0; }, each));
   compass_.lose();
@@ -141,26 +141,20 @@ void ScaleFilter::reset_heading(Heading heading) {
 bool ScaleFilter::reset_near(const Pose2& T_map_robot, double position_sigma_m,
                              double yaw_sigma_rad) {
   const auto weight_of = [&](Heading heading, double turn_rad, Cell c) {
-    return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, map_, yaw(heading) + turn_rad,
-                       c);
+    return weight_near(T_map_robot, position_sigma_m, yaw_sigma_rad, parts_.map(),
+                       yaw(heading) + turn_rad, c);
   };
   bool is_near_free = false;
-  for (std::size_t i = 0; i < map_.occupied().size() && !is_near_free; ++i) {
-    const Cell c = map_.occupied().cell_at(i);
-    is_near_free =
-        map_.is_free(c) && std::any_of(kHeadings.begin(), kHeadings.end(),
-                                       [&](Heading h) { return weight_of(h, 0.0, c) > 0.0; });
+  for (std::size_t i = 0; i < parts_.map().occupied().size() && !is_near_free; ++i) {
+    const Cell c = parts_.map().occupied().cell_at(i);
+    is_near_free = parts_.map().is_free(c) &&
+                   std::any_of(kHeadings.begin(), kHeadings.end(),
+                               [&](Heading h) { return weight_of(h, 0.0, c) > 0.0; });
   }
   if (is_near_free) {
     start(weight_of);
   }
   return is_near_free;
-}
-
-Cell ScaleFilter::cell_of(std::uint32_t padded_index) const {
-  // Half an index keeps the product off whole numbers: nothing is rounded over one.
-  const int row = static_cast<int>((padded_index + 0.5) * per_stride_);
-  return {static_cast<int>(padded_index) - row * stride_ - 1, row - 1};
 }
 
 void ScaleFilter::normalise(double total) {

@@ -9,24 +9,6 @@
 #include <cstddef>
 
 namespace cmn {
-namespace {
-
-/// Cells of the belief within `radius` cells of one.
-std::vector<Cell> cells_near(const Belief& belief, Cell middle, double radius) {
-  std::vector<Cell> near;
-  const int reach = static_cast<int>(std::floor(radius));
-  for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
-      const Cell c = middle + Cell{x, y};
-      if (x * x + y * y <= radius * radius && belief.contains(c)) {
-        near.push_back(c);
-      }
-    }
-  }
-  return near;
-}
-
-}  // namespace
 
 std::vector<double> ScaleFilter::scale_marginal() const {
   std::vector<double> marginal(static_cast<std::size_t>(params_.scales), 0.0);
@@ -62,10 +44,10 @@ void ScaleFilter::forget_shown() {
   is_shown_listed_ = true;
 }
 
-void ScaleFilter::list_shown(Heading heading, std::uint32_t i) {
+void ScaleFilter::list_shown(Heading heading, std::size_t i) {
   if (is_shown_listed_) {
-    shown_.emplace_back(heading, i);
-    if (shown_.size() > most_listed()) {
+    shown_.emplace_back(heading, static_cast<std::uint32_t>(i));
+    if (shown_.size() > map_.occupied().size() / 8) {
       is_shown_listed_ = false;
       decltype(shown_){}.swap(shown_);
     }
@@ -77,32 +59,38 @@ void ScaleFilter::summarise() {
   belief_.set_factor(1.0);
   double best = -1.0;
   Heading best_heading = Heading::kEast;
-  std::uint32_t best_cell = 0;
+  std::uint32_t best_part = 0;
   for (int layer = 0; layer < 4; ++layer) {
     for (const Sheet& sheet : sheets_) {
       const Heading heading = heading_of(sheet, layer);
       std::vector<double>& shown = belief_.layer(heading);
       sheet.layers[static_cast<std::size_t>(layer)].for_each([&](std::uint32_t i, float weight) {
-        if (shown[i] == 0.0) {
-          list_shown(heading, i);
+        const std::size_t at =
+            parts_.cuts() == 1 ? i : belief_.padded_index(parts_.cell_of(parts_.part_of(i)));
+        if (shown[at] == 0.0) {
+          list_shown(heading, at);
         }
-        shown[i] += static_cast<double>(weight);
-        if (shown[i] > best) {
-          best = shown[i];
+        shown[at] += static_cast<double>(weight);
+        if (shown[at] > best) {
+          best = shown[at];
           best_heading = heading;
-          best_cell = i;
+          best_part = i;
         }
       });
     }
   }
-  estimate_ = {best_heading, cell_of(best_cell), best};
+  estimate_ = {best_heading, parts_.cell_of(parts_.part_of(best_part)), best};
 
   // Which way the robot faces there, finer than a heading.
+  const std::vector<Cell> parts_here = parts_.parts_in(estimate_.cell);
   float most = -1.0F;
   double facing_rad = 0.0;
   for (int layer = 0; layer < 4; ++layer) {
     for (const Sheet& sheet : sheets_) {
-      const float weight = sheet.layers[static_cast<std::size_t>(layer)][best_cell];
+      float weight = 0.0F;
+      for (const Cell part : parts_here) {
+        weight += sheet.layers[static_cast<std::size_t>(layer)][parts_.padded_index(part)];
+      }
       if (weight > most && heading_of(sheet, layer) == best_heading) {
         most = weight;
         const double beyond_rad = yaw_rad_ + sheet.turn_rad;
@@ -114,7 +102,7 @@ void ScaleFilter::summarise() {
   // The mean of what lies within 1 m of the best cell and faces about the same way: finer than a
   // cell, and the scale there. By direction, not by heading: a robot that faces a diagonal is in
   // one place yet.
-  const std::vector<Cell> near = cells_near(belief_, estimate_.cell, 1.0 / map_.resolution());
+  const std::vector<Cell> near = parts_.parts_near(estimate_.cell, 1.0);
   constexpr double kSameWay_rad = kPi / 4.0 - 1e-6;
   Point2 sum;
   double mass = 0.0;
@@ -130,7 +118,7 @@ void ScaleFilter::summarise() {
       const Point2 offset = turned(sheet.offset, layer * kPi / 2.0);
       for (const Cell c : near) {
         const auto w = static_cast<double>(
-            sheet.layers[static_cast<std::size_t>(layer)][belief_.padded_index(c)]);
+            sheet.layers[static_cast<std::size_t>(layer)][parts_.padded_index(c)]);
         sum = sum + w * (middle_of(c) + offset);
         log_scale += w * std::log(sheet.scale);
         off_rad += w * aside_rad;
@@ -138,7 +126,7 @@ void ScaleFilter::summarise() {
       }
     }
   }
-  position_cells_ = (1.0 / mass) * sum;
+  position_cells_ = (1.0 / (mass * parts_.cuts())) * sum;
   scale_ = std::exp(log_scale / mass);
   // With quarter turns alone aside_rad is nothing but rounding.
   grid_yaw_rad_ = wrap_angle(turns() == 1 ? facing_rad : facing_rad + off_rad / mass);

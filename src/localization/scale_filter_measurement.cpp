@@ -63,7 +63,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
     const Point2 ahead = turned(Point2{1.0, 0.0}, bearing_rad(b));
     const auto offset_at = [&](double range_m) {
       return field_.offset_of(turned(
-          rounded(sheet.offset + (range_m * sheet.scale / map_.resolution()) * ahead), layer));
+          rounded(sheet.offset + (range_m * sheet.scale / parts_.map().resolution()) * ahead),
+          layer));
     };
     if (ray.is_hit) {
       evidence.hits.push_back(offset_at(ray.range_m));
@@ -78,8 +79,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
 }
 
 double ScaleFilter::range_log_likelihood(const Evidence& evidence, int layer,
-                                         std::uint32_t cell) const {
-  const std::uint8_t* expected = table_.row(cell);
+                                         std::uint32_t part) const {
+  const std::uint8_t* expected = table_.row(part);
   // The look's bearing b lies at b + layer quarter turns on the drawing.
   float range = 0.0F;
   const int first = layer * kBearingsPerQuarter;
@@ -102,8 +103,8 @@ double ScaleFilter::together(const Evidence& evidence, float range, float hits, 
   return fit + (is_free ? 0.0 : log_of_rim_);
 }
 
-double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const {
-  const std::ptrdiff_t at = field_.index_of(cell_of(cell));
+double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uint32_t part) const {
+  const std::ptrdiff_t at = field_.index_of(parts_.part_of(part));
   float hits = 0.0F;
   for (const std::ptrdiff_t offset : evidence.hits) {
     hits += field_.log_hit(at + offset);
@@ -112,22 +113,22 @@ double ScaleFilter::log_likelihood(const Evidence& evidence, int layer, std::uin
   for (const std::ptrdiff_t offset : evidence.frees) {
     frees += field_.occupied(at + offset);
   }
-  return together(evidence, static_cast<float>(range_log_likelihood(evidence, layer, cell)), hits,
-                  frees, map_.is_free(cell_of(cell)));
+  return together(evidence, static_cast<float>(range_log_likelihood(evidence, layer, part)), hits,
+                  frees, parts_.map().is_free(parts_.part_of(part)));
 }
 
 template <class Tell>
 void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const WeightLayer& weights,
                                Tell&& tell) const {
-  std::vector<double> row(static_cast<std::size_t>(map_.width()));
+  std::vector<double> row(static_cast<std::size_t>(parts_.map().width()));
   const auto first = static_cast<std::size_t>(layer * kBearingsPerQuarter);
-  for (int y = 0; y < map_.height(); ++y) {
-    for (int x = 0; x < map_.width(); x += 4) {
-      const std::size_t i = belief_.padded_index({x, y});
+  for (int y = 0; y < parts_.map().height(); ++y) {
+    for (int x = 0; x < parts_.map().width(); x += 4) {
+      const std::size_t i = parts_.padded_index({x, y});
       // All four are looked up, and where one holds nothing another takes its place.
       std::array<const std::uint8_t*, 4> expected{};
       const std::uint8_t* any = nullptr;
-      const auto here = static_cast<std::size_t>(std::min(4, map_.width() - x));
+      const auto here = static_cast<std::size_t>(std::min(4, parts_.map().width() - x));
       for (std::size_t k = 0; k < here; ++k) {
         expected[k] = weights[i + k] != 0.0F ? table_.row(i + k) : nullptr;
         any = expected[k] != nullptr ? expected[k] : any;
@@ -150,13 +151,14 @@ void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const Weight
         }
       }
       for (std::size_t k = 0; k < here; ++k) {
-        row[static_cast<std::size_t>(x) + k] = together(evidence, range[k], hits[k], frees[k],
-                                                        map_.is_free({x + static_cast<int>(k), y}));
+        row[static_cast<std::size_t>(x) + k] =
+            together(evidence, range[k], hits[k], frees[k],
+                     parts_.map().is_free({x + static_cast<int>(k), y}));
       }
     }
     // Apart from the sums, which would wait for the logarithms of those who are told.
-    for (int x = 0; x < map_.width(); ++x) {
-      const auto i = static_cast<std::uint32_t>(belief_.padded_index({x, y}));
+    for (int x = 0; x < parts_.map().width(); ++x) {
+      const auto i = static_cast<std::uint32_t>(parts_.padded_index({x, y}));
       if (weights[i] != 0.0F) {
         tell(i, row[static_cast<std::size_t>(x)]);
       }

@@ -19,12 +19,13 @@ Cell rounded(Point2 p) {
 }  // namespace
 
 void ScaleFilter::shift(WeightLayer& layer, Cell by) {
-  const std::ptrdiff_t delta = static_cast<std::ptrdiff_t>(by.y) * stride_ + by.x;
+  const std::ptrdiff_t delta = static_cast<std::ptrdiff_t>(by.y) * parts_.stride() + by.x;
   const auto blocked = static_cast<float>(params_.blocked_share);
   scratch_.clear_like(layer);
   layer.for_each([&](std::uint32_t i, float weight) {
-    const Cell to = cell_of(i) + by;
-    const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= map_.width() && to.y <= map_.height() &&
+    const Cell to = parts_.part_of(i) + by;
+    const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= parts_.map().width() &&
+                        to.y <= parts_.map().height() &&
                         table_.may_stand(static_cast<std::size_t>(i + delta));
     // Mass that faces a wall stays (CMN eq. 1), but hardly: walls that are drawn mostly stand.
     scratch_.add(static_cast<std::uint32_t>(may_go ? i + delta : i),
@@ -39,8 +40,9 @@ void ScaleFilter::diffuse(WeightLayer& layer, double share) {
   layer.for_each([&](std::uint32_t i, float weight) {
     float stays = weight;
     const float part = give * weight;
-    for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, std::ptrdiff_t{-1},
-                                      std::ptrdiff_t{stride_}, -std::ptrdiff_t{stride_}}) {
+    for (const std::ptrdiff_t step :
+         {std::ptrdiff_t{1}, std::ptrdiff_t{-1}, std::ptrdiff_t{parts_.stride()},
+          -std::ptrdiff_t{parts_.stride()}}) {
       const auto target = static_cast<std::uint32_t>(i + step);
       if (table_.may_stand(target)) {
         scratch_.add(target, part);
@@ -53,10 +55,11 @@ void ScaleFilter::diffuse(WeightLayer& layer, double share) {
 }
 
 void ScaleFilter::move(Sheet& sheet, Point2 driven_m) {
-  sheet.offset = sheet.offset + (sheet.scale / map_.resolution()) * driven_m;
+  sheet.offset = sheet.offset + (sheet.scale / parts_.map().resolution()) * driven_m;
   const Cell whole = rounded(sheet.offset);
   sheet.offset = sheet.offset - Point2{static_cast<double>(whole.x), static_cast<double>(whole.y)};
-  const double share = std::min(0.2, params_.diffusion * norm(driven_m));
+  const double share =
+      std::min(0.2, params_.diffusion * parts_.cuts() * parts_.cuts() * norm(driven_m));
   for (int layer = 0; layer < 4; ++layer) {
     if (whole != Cell{0, 0}) {
       shift(sheet.layers[static_cast<std::size_t>(layer)], turned(whole, layer));

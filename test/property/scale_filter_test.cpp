@@ -37,6 +37,7 @@ ScaleFilterParams random_params(std::mt19937_64& rng) {
   ScaleFilterParams params;
   params.scales = 1 + static_cast<int>(draw_index(rng, 4));
   params.carried_share = draw_uniform(rng) < 0.3 ? 0.2 : 1.0;  // looks at random seldom agree
+  params.part_m = 0.12 + 0.4 * draw_uniform(rng);
   params.headings = 4 * (1 + static_cast<int>(draw_index(rng, 3)));
   params.blocked_share = draw_uniform(rng) < 0.3 ? 0.0 : 0.3;
   params.rim_penalty = draw_uniform(rng) < 0.3 ? 0.0 : 0.3;

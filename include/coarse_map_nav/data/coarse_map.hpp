@@ -58,6 +58,9 @@ class CoarseMap {
   std::size_t free_count_ = 0;
 };
 
+/// The same drawing with each cell cut into `cuts` x `cuts`.
+CoarseMap cut(const CoarseMap& map, int cuts);
+
 /// The same cells of the same size at the same place.
 inline bool is_same_drawing(const CoarseMap& a, const CoarseMap& b) {
   return a.occupied() == b.occupied() && a.resolution() == b.resolution() &&

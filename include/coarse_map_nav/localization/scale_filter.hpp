@@ -9,6 +9,7 @@
 #include "coarse_map_nav/data/look_contradiction.hpp"
 #include "coarse_map_nav/localization/hit_field.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
+#include "coarse_map_nav/localization/map_parts.hpp"
 #include "coarse_map_nav/localization/range_table.hpp"
 #include "coarse_map_nav/localization/scale_filter_params.hpp"
 #include "coarse_map_nav/localization/wall_compass.hpp"
@@ -35,6 +36,8 @@ namespace cmn {
 ///  - The drawing may be turned against them by less than a quarter too (`headings` > 4): the rays
 ///    are cast, and odometry is taken, in axes that are turned likewise, for each such turn. The
 ///    belief that is handed out counts each direction to its nearest heading.
+///  - Hypotheses may lie nearer together than cells: by parts of a cell. The belief that is handed
+///    out sums them up.
 ///  - Work and memory traffic follow the support of the belief.
 class ScaleFilter : public Localizer {
  public:
@@ -65,19 +68,19 @@ class ScaleFilter : public Localizer {
     double scale = 1.0;
     double turn_rad = 0.0;  ///< of the robot on the drawing, beyond its yaw in the walls' axes and
                             ///< whole quarters
-    Point2 offset;  ///< of every hypothesis from the middle of its cell, in the walls' axes turned
-                    ///< back by turn_rad [cells]
+    Point2 offset;  ///< of every hypothesis from the middle of its part, in the walls' axes turned
+                    ///< back by turn_rad [parts]
     std::array<WeightLayer, 4> layers;  ///< by how the drawing lies; padded
   };
-  /// What a look says about the cells of one sheet and layer.
+  /// What a look says about the parts of one sheet and layer.
   struct Evidence {
     std::array<std::array<float, 256>, kBearings>
         by_code;                       ///< [bearing of the look][expected range]
     std::vector<std::ptrdiff_t> hits;  ///< offsets in the field
     std::vector<std::ptrdiff_t> frees;
   };
-  /// More states than one in so many of the map's cells are many: they are not listed.
-  std::size_t most_listed() const { return map_.occupied().size() / 8; }
+  /// More states than one in so many parts are many: they are not listed.
+  std::size_t most_listed() const { return parts_.map().occupied().size() / 8; }
   int turns() const { return params_.headings / 4; }
   /// The heading on the drawing that is nearest to the robot's by the hypotheses of a layer.
   Heading heading_of(const Sheet& sheet, int layer) const {
@@ -89,21 +92,21 @@ class ScaleFilter : public Localizer {
   /// Weighs all cells; false when nothing is left. `yaw_rad`: of the robot, in the walls' axes.
   bool weigh(const LocalOccupancy& seen, double yaw_rad, double news);
   Evidence evidence(const RayProfile& rays, const Sheet& sheet, int layer) const;
-  /// Of what a look says of one cell; `is_free`: the cell, where it is not at the rim.
+  /// Of what a look says of one part; `is_free`: the part, where it is not at the rim.
   double together(const Evidence& evidence, float range, float hits, float frees,
                   bool is_free) const;
-  double log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
-  /// The same for all cells that hold a weight: tell(cell, log likelihood), which may change it.
+  double log_likelihood(const Evidence& evidence, int layer, std::uint32_t part) const;
+  /// The same for all parts that hold a weight: tell(part, log likelihood), which may change it.
   template <class Tell>
   void measure_rows(const Evidence& evidence, int layer, const WeightLayer& weights,
                     Tell&& tell) const;
-  double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t cell) const;
+  double range_log_likelihood(const Evidence& evidence, int layer, std::uint32_t part) const;
   void normalise(double total);
   void forget_shown();
-  void list_shown(Heading heading, std::uint32_t i);
+  void list_shown(Heading heading, std::size_t i);
   void summarise();
   WeightLayer no_weights() const;
-  /// Of a state: its layer's heading, the turn beyond it, its cell.
+  /// Of a state: its layer's heading, the turn beyond it, its part.
   using Weights = std::function<double(Heading, double turn_rad, Cell)>;
   /// Layers are taken to be headings until the first look tells how the odometry lies.
   void start(const Weights& weight_of);
@@ -115,16 +118,13 @@ class ScaleFilter : public Localizer {
   /// Nothing fits: anywhere is possible again.
   void reopen();
 
-  Cell cell_of(std::uint32_t padded_index) const;
-
   CoarseMap map_;
   ScaleFilterParams params_;
+  MapParts parts_;
   double converged_confidence_;
   LogRange code_;
   RangeTable table_;
   HitField field_;
-  int stride_ = 0;  ///< of the padded layers
-  double per_stride_ = 0.0;
   /// Log likelihood of a ray by the error of its coded range, from -255 on.
   std::vector<float> log_of_hit_;
   std::vector<float> log_of_free_;

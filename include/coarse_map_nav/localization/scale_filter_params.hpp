@@ -12,6 +12,8 @@ namespace cmn {
 struct ScaleFilterParams {
   WallCompassParams compass;
   double reach_m = 8.0;
+  double part_m = 0.2;
+  double most_parts = 6000;
   int headings = 4;
   int scales = 5;
   double least_scale = 0.7;
@@ -37,6 +39,10 @@ struct ScaleFilterParams {
   static void visit_params(Self& self, Visitor&& visit) {
     visit.group("compass", self.compass);
     visit("reach_m", self.reach_m, Between{0.5, 100.0}, "[m] rays are compared up to this range");
+    visit("part_m", self.part_m, Between{0.01, 10.0},
+          "[m] hypotheses lie no farther apart: cells of the drawing are cut so finely");
+    visit("most_parts", self.most_parts, Between{1.0, 1e9},
+          "but into no more parts of free ground than that, in all: larger maps are cut less");
     visit("headings", self.headings, MultipleOf{4, 360},
           "in how many directions, evenly spaced, the drawing may lie to the axes that the robot "
           "keeps to; 4: as the walls do");
