@@ -51,6 +51,7 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
     log_of_hit_.push_back(static_cast<float>(std::log(hit + params.range_random)));
     log_of_free_.push_back(static_cast<float>(std::log(free + params.range_random)));
   }
+  looks_.emplace(parts_, table_, code_, params, log_of_hit_);
   log_of_rim_ = std::log(params.rim_penalty + 1e-9);
   scratch_ = no_weights();
   reset();

@@ -142,7 +142,8 @@ Localization ScaleFilter::localization() const {
           confidence_ >= converged_confidence_,
           scale_,
           compass_.axes_yaw_rad(),
-          is_shown_listed_ ? &shown_ : nullptr};
+          is_shown_listed_ ? &shown_ : nullptr,
+          &*looks_};
 }
 
 }  // namespace cmn

@@ -25,6 +25,11 @@ constexpr double kResolve_m = 1.0;
 /// way is worth so much newness.
 constexpr double kNewEnough_m = 3.0;
 constexpr double kHaste = 0.3;
+/// Hypotheses farther than this from each other are distinct, and so many are told apart, by looks
+/// that are new this far from where the robot has been.
+constexpr double kApart_m = 1.0;
+constexpr std::size_t kMostDistinct = 6;
+constexpr double kNew_m = 1.5;
 constexpr std::size_t kLongestTrail = 300;
 /// Nearer than this to the goal there is no gap to get through.
 constexpr double kNearGoal_m = 0.6;
@@ -33,8 +38,8 @@ constexpr int kMostGaps = 8;  ///< closed in one decision
 }  // namespace
 
 BeliefPolicy::BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair,
-                           double step_m)
-    : lattice_{lattice, step_m}, repair_{repair} {}
+                           double step_m, bool information)
+    : lattice_{lattice, step_m}, repair_{repair}, information_{information} {}
 
 void BeliefPolicy::reset() {
   if (map_) {
@@ -87,7 +92,7 @@ void BeliefPolicy::update_cost_to_go(const Situation& situation) {
   }
 }
 
-std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) {
+std::vector<Hypothesis> BeliefPolicy::hypotheses(const Situation& situation) {
   const Belief& belief = situation.belief;
   std::vector<Estimate> candidates;
   const double least = kLeastShare * situation.estimate.probability;
@@ -122,8 +127,8 @@ std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::hypotheses(const Situation& 
   return weighed(situation, std::move(candidates));
 }
 
-std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::weighed(const Situation& situation,
-                                                            std::vector<Estimate> candidates) {
+std::vector<Hypothesis> BeliefPolicy::weighed(const Situation& situation,
+                                              std::vector<Estimate> candidates) {
   if (candidates.size() > kMostHypotheses) {
     std::nth_element(
         candidates.begin(), candidates.begin() + kMostHypotheses, candidates.end(),
@@ -136,8 +141,9 @@ std::vector<BeliefPolicy::Hypothesis> BeliefPolicy::weighed(const Situation& sit
   double total = 0.0;
   for (const Estimate& c : candidates) {
     const int turns = index(c.heading) - index(situation.estimate.heading);
-    found.push_back({middle_of(c.cell) + turned(within, turns * kPi / 2.0),
-                     situation.yaw_rad + turns * kPi / 2.0, c.probability});
+    found.push_back({{middle_of(c.cell) + turned(within, turns * kPi / 2.0),
+                      situation.yaw_rad + turns * kPi / 2.0},
+                     c.probability});
     total += c.probability;
   }
   for (Hypothesis& hypothesis : found) {
@@ -153,15 +159,18 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
   std::vector<Point2> origins;
   std::vector<Point2> axes;  // of a metre ahead
   for (const Hypothesis& hypothesis : at) {
-    origins.push_back(static_cast<double>(map_->cuts()) * hypothesis.position_cells);
-    axes.push_back(turned(Point2{parts_per_m, 0.0}, hypothesis.yaw_rad));
+    origins.push_back(static_cast<double>(map_->cuts()) * hypothesis.pose.position_cells);
+    axes.push_back(turned(Point2{parts_per_m, 0.0}, hypothesis.pose.yaw_rad));
   }
+  const std::vector<double> savings = savings_m(situation, at);
+  const double most_saved_m = *std::max_element(savings.begin(), savings.end());
   double least_m = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   const std::vector<LatticeState>& states = lattice_.states();
   // The four headings of one place share the expectation: only the cheapest can be the best.
-  for (const std::size_t i : lattice_.places()) {
-    if (states[i].cost_m - kResolve_m >= least_m) {
+  for (std::size_t k = 0; k < savings.size(); ++k) {
+    const std::size_t i = lattice_.places()[k];
+    if (states[i].cost_m - kResolve_m - most_saved_m >= least_m) {
       break;  // and so are all that follow
     }
     const Point2 p = lattice_.position_of(states[i]);
@@ -171,7 +180,7 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
                          origins[j].y + axes[j].y * p.x + axes[j].x * p.y};
       parts_to_go += at[j].weight * cost_to_go_.between(there);
     }
-    double cost_m = states[i].cost_m + kGreed * (part_m * parts_to_go);
+    double cost_m = states[i].cost_m + kGreed * (part_m * parts_to_go) - savings[k];
     if (is_near_target(states[i].offset)) {
       cost_m -= kResolve_m;
     }
@@ -181,6 +190,38 @@ std::size_t BeliefPolicy::best_state(const Situation& situation,
     }
   }
   return best;
+}
+
+std::vector<double> BeliefPolicy::savings_m(const Situation& situation,
+                                            const std::vector<Hypothesis>& at) const {
+  const std::vector<std::size_t>& places = lattice_.places();
+  if (!information_ || situation.is_converged || situation.looks == nullptr) {
+    return std::vector<double>(places.size(), 0.0);
+  }
+  const double cells_per_m = situation.scale / situation.map.resolution();
+  const double parts_per_m = cells_per_m * map_->cuts();
+  const std::vector<Hypothesis> few = distinct(at, kApart_m * cells_per_m, kMostDistinct);
+  std::vector<std::vector<double>> costs_m;
+  for (const Hypothesis& h : few) {
+    costs_m.emplace_back();
+    const Point2 origin = static_cast<double>(map_->cuts()) * h.pose.position_cells;
+    for (const std::size_t i : places) {
+      const LatticeState& state = lattice_.states()[i];
+      const Point2 there =
+          origin + turned(parts_per_m * lattice_.position_of(state), h.pose.yaw_rad);
+      const double cost_m = state.cost_m + kGreed * cost_to_go_.between(there) / parts_per_m;
+      // Whatever the drawing says of it, from there the robot can come back.
+      costs_m.back().push_back(
+          i == 0 ? cost_m
+                 : std::min(cost_m, costs_m.back().front() + (1.0 + kGreed) * state.cost_m));
+    }
+  }
+  std::vector<double> newness;
+  for (const std::size_t i : places) {
+    newness.push_back(newness_m(lattice_.states()[i].offset, kNew_m) / kNew_m);
+  }
+  return cmn::savings_m({lattice_, few, costs_m, newness, cells_per_m, situation.scale},
+                        *situation.looks);
 }
 
 bool BeliefPolicy::close_gap(const Situation& situation) {
@@ -211,6 +252,20 @@ bool BeliefPolicy::close_gap(const Situation& situation) {
   return false;
 }
 
+double BeliefPolicy::newness_m(Cell offset, double most_m) const {
+  double new_m = most_m;
+  int least_square = std::numeric_limits<int>::max();
+  for (const Cell been : trail_) {
+    const Cell off = offset - been;
+    const int square = off.x * off.x + off.y * off.y;
+    if (square <= least_square) {
+      least_square = square;
+      new_m = std::min(new_m, lattice_.step_m() * std::hypot(off.x, off.y));
+    }
+  }
+  return new_m;
+}
+
 ActionType BeliefPolicy::explore(std::mt19937_64& rng) {
   const std::vector<LatticeState>& states = lattice_.states();
   std::size_t best = 0;
@@ -224,17 +279,7 @@ ActionType BeliefPolicy::explore(std::mt19937_64& rng) {
                                                 states.begin());
   std::sort(candidates.begin(), candidates.end());
   for (const std::size_t i : candidates) {
-    double new_m = kNewEnough_m;
-    int least_square = std::numeric_limits<int>::max();
-    for (const Cell been : trail_) {
-      const Cell off = states[i].offset - been;
-      const int square = off.x * off.x + off.y * off.y;
-      if (square <= least_square) {
-        least_square = square;
-        new_m = std::min(new_m, lattice_.step_m() * std::hypot(off.x, off.y));
-      }
-    }
-    double worth_m = new_m - kHaste * states[i].cost_m;
+    double worth_m = newness_m(states[i].offset, kNewEnough_m) - kHaste * states[i].cost_m;
     if (is_near_target(states[i].offset)) {
       worth_m += kResolve_m;
     }

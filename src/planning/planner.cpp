@@ -183,7 +183,8 @@ Decision Planner::decide(const Localization& localization, bool is_blocked_ahead
                             localization.scale,
                             localization.axes_yaw_rad,
                             local_map,
-                            localization.possible};
+                            localization.possible,
+                            localization.looks};
   policy_->look(situation);
   const std::optional<double> own_m = policy_->distance_to_go_m(situation);
   const double distance_m = own_m                            ? *own_m

@@ -27,7 +27,8 @@ std::unique_ptr<Policy> make_policy(const PlanningParams& params) {
     return std::make_unique<LatticePolicy>(params.lattice, params.step_m, params.explore_p_turn);
   }
   if (params.policy == "belief") {
-    return std::make_unique<BeliefPolicy>(params.lattice, params.map_repair, params.step_m);
+    return std::make_unique<BeliefPolicy>(params.lattice, params.map_repair, params.step_m,
+                                          params.information);
   }
   throw std::invalid_argument("planning policy \"" + params.policy +
                               "\" is none of random, heuristic_tree, path, lattice, belief");

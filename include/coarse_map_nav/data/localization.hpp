@@ -5,6 +5,7 @@
 #pragma once
 
 #include "coarse_map_nav/data/belief.hpp"
+#include "coarse_map_nav/data/expected_looks.hpp"
 
 #include <cstdint>
 #include <utility>
@@ -27,6 +28,7 @@ struct Localization {
   /// All states of the belief that are not 0, in no order, each with its index in the padded layer;
   /// null where they are many or the localizer does not list them.
   const std::vector<std::pair<Heading, std::uint32_t>>* possible = nullptr;
+  const ExpectedLooks* looks = nullptr;  ///< what it expects to see, where it can tell
 };
 
 }  // namespace cmn

@@ -10,6 +10,7 @@
 #include "coarse_map_nav/localization/hit_field.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/localization/map_parts.hpp"
+#include "coarse_map_nav/localization/range_looks.hpp"
 #include "coarse_map_nav/localization/range_table.hpp"
 #include "coarse_map_nav/localization/scale_filter_params.hpp"
 #include "coarse_map_nav/localization/wall_compass.hpp"
@@ -66,8 +67,7 @@ class ScaleFilter : public Localizer {
   /// All hypotheses of one scale and one turn.
   struct Sheet {
     double scale = 1.0;
-    double turn_rad = 0.0;  ///< of the robot on the drawing, beyond its yaw in the walls' axes and
-                            ///< whole quarters
+    double turn_rad = 0.0;  ///< on the drawing, beyond its yaw in the walls' axes and quarters
     Point2 offset;  ///< of every hypothesis from the middle of its part, in the walls' axes turned
                     ///< back by turn_rad [parts]
     std::array<WeightLayer, 4> layers;  ///< by how the drawing lies; padded
@@ -128,6 +128,7 @@ class ScaleFilter : public Localizer {
   /// Log likelihood of a ray by the error of its coded range, from -255 on.
   std::vector<float> log_of_hit_;
   std::vector<float> log_of_free_;
+  std::optional<RangeLooks> looks_;
   double log_of_rim_ = 0.0;
   std::vector<Sheet> sheets_;  ///< all turns of the first scale, of the second, ...
   WeightLayer scratch_;

@@ -4,6 +4,7 @@
 /// Ours: what is possible by the lattice, what it is worth by the whole belief.
 #pragma once
 
+#include "coarse_map_nav/planning/information.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
 #include "coarse_map_nav/planning/map_repair.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
@@ -19,11 +20,13 @@ namespace cmn {
 /// of the way there and the expected cost-to-go from there, the expectation over where the robot
 /// may be (QMDP, Littman et al. 1995), on a map that is repaired as the robot goes.
 ///
+/// Where they disagree, the way is worth what looks on it are expected to tell (information.hpp).
 /// A goal on which all hypotheses agree is thus driven to before the belief has converged. While
 /// they disagree, standing still would often be best: then the robot explores.
 class BeliefPolicy : public Policy {
  public:
-  BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair, double step_m);
+  BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair, double step_m,
+               bool information);
   /// Throws std::invalid_argument without a local map.
   void look(const Situation& situation) override;
   ActionType choose(const Situation& situation, std::mt19937_64& rng) override;
@@ -33,11 +36,6 @@ class BeliefPolicy : public Policy {
   const RepairedMap* repaired_map() const override { return map_ ? &*map_ : nullptr; }
 
  private:
-  struct Hypothesis {
-    Point2 position_cells;
-    double yaw_rad;
-    double weight;
-  };
   void update_cost_to_go(const Situation& situation);
   static std::vector<Hypothesis> hypotheses(const Situation& situation);
   /// The likeliest of the candidates, all together 1.
@@ -45,6 +43,11 @@ class BeliefPolicy : public Policy {
                                          std::vector<Estimate> candidates);
   /// The state of the lattice with the least expected cost; 0 when that is to stay.
   std::size_t best_state(const Situation& situation, const std::vector<Hypothesis>& at) const;
+  /// Of each place of the lattice what looks on the way there are expected to save [m].
+  std::vector<double> savings_m(const Situation& situation,
+                                const std::vector<Hypothesis>& at) const;
+  /// How far a place of the lattice is from where the robot has been, at most `most_m` [m].
+  double newness_m(Cell offset, double most_m) const;
   /// The goal would lead through a gap that the lattice does not fit through: closes it.
   bool close_gap(const Situation& situation);
   void remember(ActionType action);
@@ -55,6 +58,7 @@ class BeliefPolicy : public Policy {
 
   LocalLattice lattice_;
   MapRepairParams repair_;
+  bool information_;
   std::optional<RepairedMap> map_;
   RepairedCostToGo cost_to_go_;
   bool has_goal_ = false;               ///< cost_to_go_ leads to it

@@ -33,6 +33,7 @@ struct PlanningParams {
   bool tree_diagonals = false;  ///< see HeuristicTree
   /// A turn every 1.5 m of CMN's steps. Of 0 to 0.3 it saw most of a flat in 300 and 500 actions.
   double explore_p_turn = 0.1;
+  bool information = true;
   double goal_tolerance_m = 0.4;  ///< CMN's released parameters: success radius
   double reached_confidence = 0.5;
   int max_actions = 500;  ///< CMN: horizon
@@ -50,6 +51,8 @@ struct PlanningParams {
           "heuristic_tree: the path to the goal may go along diagonals");
     visit("explore_p_turn", self.explore_p_turn, Between{0.0, 1.0},
           "[-] P(a turn at a step of the random exploration), where forward is free");
+    visit("information", self.information, Anything{},
+          "belief: while lost, the way is worth what looks on it are expected to tell");
     visit("goal_tolerance_m", self.goal_tolerance_m, Between{0.05, 5.0},
           "[m] reached when the estimate is this close to the goal");
     visit("reached_confidence", self.reached_confidence, Between{0.0, 1.0},

@@ -7,6 +7,7 @@
 #include "coarse_map_nav/data/action.hpp"
 #include "coarse_map_nav/data/belief.hpp"
 #include "coarse_map_nav/data/coarse_map.hpp"
+#include "coarse_map_nav/data/expected_looks.hpp"
 #include "coarse_map_nav/data/local_occupancy.hpp"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ struct Situation {
   double axes_yaw_rad = 0.0;      ///< see Localization
   const LocalOccupancy* local_map = nullptr;  ///< what is seen farther around, where it is known
   const std::vector<std::pair<Heading, std::uint32_t>>* possible = nullptr;  ///< see Localization
+  const ExpectedLooks* looks = nullptr;                                      ///< likewise
 };
 
 /// Chooses one action at a time. May remember what it did; `rng` is its only source of chance.
