@@ -4,6 +4,7 @@
 /// Ours: what is possible by the lattice, what it is worth by the whole belief.
 #pragma once
 
+#include "coarse_map_nav/planning/learned_places.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
 #include "coarse_map_nav/planning/map_repair.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
@@ -38,6 +39,8 @@ class BeliefPolicy : public Policy {
     double yaw_rad;
     double weight;
   };
+  /// Into the map, as far as the robot is sure where it looks at.
+  void learn(const Situation& situation);
   void update_cost_to_go(const Situation& situation);
   static std::vector<Hypothesis> hypotheses(const Situation& situation);
   /// The likeliest of the candidates, all together 1.
@@ -56,6 +59,7 @@ class BeliefPolicy : public Policy {
   LocalLattice lattice_;
   MapRepairParams repair_;
   std::optional<RepairedMap> map_;
+  LearnedPlaces places_;
   RepairedCostToGo cost_to_go_;
   bool has_goal_ = false;               ///< cost_to_go_ leads to it
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
