@@ -45,6 +45,8 @@ void BeliefPolicy::reset() {
   if (map_) {
     map_->forget_failures();
   }
+  places_.forget_failures();
+  places_.expect_anywhere();
   has_goal_ = false;
   last_ = ActionType::kStop;
   target_.reset();
@@ -64,22 +66,29 @@ void BeliefPolicy::look(const Situation& situation) {
     for (Cell& been : trail_) {
       been = been + Cell{1, 0};
     }
+    places_.was_stuck(lattice_.step_m());
     target_.reset();
   }
-  if (repair_.enabled && situation.confidence >= repair_.confidence) {
-    const double yaw_rad = situation.yaw_rad;
-    map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
-               situation.position_cells, yaw_rad, situation.scale);
-    if (situation.is_stuck) {
-      const double ahead = situation.scale * (lattice_.step_m() + lattice_.least_clearance_m()) /
-                           situation.map.resolution();
-      map_->mark_failed(
-          map_->part_of(situation.position_cells + turned(Point2{ahead, 0.0}, yaw_rad)));
-    }
-  }
+  learn(situation);
   update_cost_to_go(situation);
   hypotheses_ = hypotheses(situation);
   best_ = best_state(situation, hypotheses_);
+}
+
+void BeliefPolicy::learn(const Situation& situation) {
+  if (!repair_.enabled || situation.confidence < repair_.confidence) {
+    return;
+  }
+  const double yaw_rad = situation.yaw_rad;
+  const double cells_per_m = situation.scale / situation.map.resolution();
+  places_.arrive(*map_, situation.position_cells, yaw_rad, cells_per_m);
+  map_->fuse(*situation.local_map, lattice_.clearance(), lattice_.least_clearance_m(),
+             situation.position_cells, yaw_rad, situation.scale);
+  if (situation.is_stuck) {
+    const double ahead = cells_per_m * (lattice_.step_m() + lattice_.least_clearance_m());
+    map_->mark_failed(
+        map_->part_of(situation.position_cells + turned(Point2{ahead, 0.0}, yaw_rad)));
+  }
 }
 
 void BeliefPolicy::update_cost_to_go(const Situation& situation) {
@@ -338,6 +347,7 @@ void BeliefPolicy::remember(ActionType action) {
   if (best_ != 0) {
     target_ = lattice_.states()[best_].offset;
   }
+  places_.moved(action, lattice_.step_m());
   // As all will lie when the action is done.
   trail_.push_back({0, 0});
   if (trail_.size() > kLongestTrail) {

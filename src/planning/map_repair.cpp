@@ -39,11 +39,36 @@ int RepairedMap::dearest() const {
   return std::max({kFailedCost, params_.drawn_wall_cost, params_.seen_wall_cost});
 }
 
+RepairedMap::Part RepairedMap::drawn(std::size_t index) const {
+  const Cell c = parts_.cell_at(index);
+  const bool is_free = drawing_.is_free({c.x / cuts_, c.y / cuts_});
+  return {static_cast<std::int8_t>(is_free ? 1 : -1), is_free, false, false};
+}
+
 void RepairedMap::forget() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Cell c = parts_.cell_at(i);
-    const bool is_free = drawing_.is_free({c.x / cuts_, c.y / cuts_});
-    parts_[i] = {static_cast<std::int8_t>(is_free ? 1 : -1), is_free, false, false};
+    parts_[i] = drawn(i);
+  }
+}
+
+RepairedMap::Learned RepairedMap::exchange(Learned instead) {
+  Learned before;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i].was_seen || parts_[i].has_failed) {
+      before.parts_.emplace_back(i, std::exchange(parts_[i], drawn(i)));
+      changed_.push_back(parts_.cell_at(i));
+    }
+  }
+  for (const auto& [i, part] : instead.parts_) {
+    parts_[i] = part;
+    changed_.push_back(parts_.cell_at(i));
+  }
+  return before;
+}
+
+void RepairedMap::Learned::forget_failures() {
+  for (auto& [i, part] : parts_) {
+    part.has_failed = false;
   }
 }
 

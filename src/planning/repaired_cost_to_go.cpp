@@ -26,7 +26,7 @@ RepairedCostToGo::RepairedCostToGo(const RepairedMap& map, Cell goal)
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       cost_[index_of({x, y})] = kUnknown;
-      price_[index_of({x, y})] = static_cast<std::uint16_t>(map.cost({x, y}));
+      price_[index_of({x, y})] = price_of(map, {x, y});
     }
   }
   cost_[index_of(goal_)] = 0;
@@ -103,7 +103,7 @@ void RepairedCostToGo::search_to(std::int32_t cost) const {
 void RepairedCostToGo::change(const RepairedMap& map, const std::vector<Cell>& parts) {
   for (const Cell c : parts) {
     const auto i = static_cast<std::uint32_t>(index_of(c));
-    price_[i] = static_cast<std::uint16_t>(map.cost(c));
+    price_[i] = price_of(map, c);
     if (cost_[i] == kUnknown) {
       continue;  // no way comes through here
     }

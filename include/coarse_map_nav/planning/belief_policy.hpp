@@ -5,6 +5,7 @@
 #pragma once
 
 #include "coarse_map_nav/planning/information.hpp"
+#include "coarse_map_nav/planning/learned_places.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
 #include "coarse_map_nav/planning/map_repair.hpp"
 #include "coarse_map_nav/planning/policy.hpp"
@@ -36,6 +37,8 @@ class BeliefPolicy : public Policy {
   const RepairedMap* repaired_map() const override { return map_ ? &*map_ : nullptr; }
 
  private:
+  /// Into the map, as far as the robot is sure where it looks at.
+  void learn(const Situation& situation);
   void update_cost_to_go(const Situation& situation);
   static std::vector<Hypothesis> hypotheses(const Situation& situation);
   /// The likeliest of the candidates, all together 1.
@@ -60,6 +63,7 @@ class BeliefPolicy : public Policy {
   MapRepairParams repair_;
   bool information_;
   std::optional<RepairedMap> map_;
+  LearnedPlaces places_;
   RepairedCostToGo cost_to_go_;
   bool has_goal_ = false;               ///< cost_to_go_ leads to it
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be

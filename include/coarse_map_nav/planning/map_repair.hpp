@@ -9,6 +9,7 @@
 #include "coarse_map_nav/data/param_tree.hpp"
 #include "coarse_map_nav/planning/local_lattice.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -45,7 +46,27 @@ struct MapRepairParams {
 /// Traversability of the ground, in cells no larger than `cell_m`: where the *middle* of the robot
 /// can be (ours). The prior is the drawing. Localization never sees it: it keeps the original.
 class RepairedMap {
+  /// Looks for (> 0) and against (< 0) a part's being open, at most kMostLooks either way. What is
+  /// drawn counts as one look. One byte: there may be millions.
+  struct Part {
+    std::int8_t looks : 4;
+    bool is_open : 1;
+    bool was_seen : 1;
+    bool has_failed : 1;
+  };
+  static_assert(sizeof(Part) == 1);
+
  public:
+  /// All that is not as drawn.
+  class Learned {
+   public:
+    void forget_failures();
+
+   private:
+    friend class RepairedMap;
+    std::vector<std::pair<std::size_t, Part>> parts_;  ///< by their index
+  };
+
   RepairedMap(const CoarseMap& drawing, const MapRepairParams& params);
 
   /// Parts that a cell of the drawing is cut into along each side.
@@ -69,7 +90,9 @@ class RepairedMap {
   /// The robot could not get through here, whatever it sees. Kept until forget_failures().
   bool mark_failed(Cell part);
   void forget_failures();
-  /// The parts whose cost fuse() and mark_failed() have changed since this was last asked.
+  /// As drawn again, but for what was learned `instead`; returns what was learned till now.
+  Learned exchange(Learned instead);
+  /// The parts whose cost may have changed since this was last asked, but for the two that forget.
   std::vector<Cell> take_changed() { return std::exchange(changed_, {}); }
   /// As drawn again.
   void forget();
@@ -78,15 +101,8 @@ class RepairedMap {
   CoarseMap as_map() const;
 
  private:
-  /// Looks for (> 0) and against (< 0) a part's being open, at most kMostLooks either way. What is
-  /// drawn counts as one look. One byte: there may be millions.
-  struct Part {
-    std::int8_t looks : 4;
-    bool is_open : 1;
-    bool was_seen : 1;
-    bool has_failed : 1;
-  };
-  static_assert(sizeof(Part) == 1);
+  Part drawn(std::size_t index) const;
+
   static constexpr int kMostLooks = 4;
 
   CoarseMap drawing_;

@@ -17,7 +17,8 @@
 namespace cmn {
 
 /// Dijkstra from the goal over the parts of a repaired map, four neighbours each; walls can be
-/// crossed at their price, so there is a way from everywhere.
+/// crossed at their price, so there is a way from everywhere. The goal is where the robot is to
+/// stand: its own part costs 1, whatever was learned of it.
 ///
 /// The search goes only as far from the goal as it is asked about, and where the map changes only
 /// what follows from the changes is searched again, and that too only as far as it is asked about
@@ -44,6 +45,9 @@ class RepairedCostToGo {
  private:
   static constexpr double kOutside = 1e9;
   static constexpr std::int32_t kUnknown = std::numeric_limits<std::int32_t>::max();
+  std::uint16_t price_of(const RepairedMap& map, Cell part) const {
+    return static_cast<std::uint16_t>(part == goal_ ? 1 : map.cost(part));
+  }
   bool contains(Cell c) const { return c.x >= 0 && c.y >= 0 && c.x < width_ && c.y < height_; }
   /// With a border of one part, all around, that is outside.
   std::size_t index_of(Cell c) const {

@@ -42,19 +42,21 @@ class Journey {
     T_world_robot = {p.x, p.y, yaw(heading)};
   }
 
-  /// The robot knows where it is.
+  /// The robot knows where it is, or is as sure of the place that is off_cells from there.
   Belief known() const {
     Belief belief{drawing_.width(), drawing_.height()};
-    belief.set_weight(heading(), cell(), 1.0);
+    belief.set_weight(heading(), cell() + off_cells, 1.0);
     belief.normalise();
     return belief;
   }
   /// Looks; what is returned is good until the next look.
   Situation look(const Belief& belief, double confidence) {
     local_ = projector_.project(sensor_.measure(world_, T_world_robot, 0.0));
-    Situation situation{drawing_, belief, cost_,
-                        Estimate{heading(), cell(), belief(heading(), cell())}};
-    situation.position_cells = (1.0 / kCell_m) * T_world_robot.position();
+    Situation situation{
+        drawing_, belief, cost_,
+        Estimate{heading(), cell() + off_cells, belief(heading(), cell() + off_cells)}};
+    situation.position_cells =
+        (1.0 / kCell_m) * T_world_robot.position() + middle_of(off_cells) - middle_of({0, 0});
     situation.yaw_rad = T_world_robot.yaw;
     situation.goal_cells = middle_of(goal_);
     situation.confidence = confidence;
@@ -96,6 +98,7 @@ class Journey {
   const CoarseMap& drawing() const { return drawing_; }
 
   Pose2 T_world_robot;
+  Cell off_cells{0, 0};
   BeliefPolicy policy{LatticeParams{}, MapRepairParams{}, kCmnStep_m, true};
   int stuck = 0;
   const ExpectedLooks* looks = nullptr;
@@ -161,6 +164,25 @@ TEST(BeliefPolicy, TakesADoorThatTheDrawingLacks) {
 TEST(BeliefPolicy, ExpectsToCrossAWallWhenNothingElseIsLeft) {
   Journey journey{rooms(false, false), rooms(true, false), {3, 6}, Heading::kEast, {11, 6}};
   EXPECT_LE(journey.actions_to_goal(250), 150);
+  EXPECT_LE(journey.off_goal_m(), 0.3);
+}
+
+TEST(BeliefPolicy, WhatItLearnedAtAWrongPlaceDoesNotStay) {
+  Journey journey{rooms(true, false), rooms(true, false), {3, 3}, Heading::kEast, {11, 3}};
+  // It is sure to be 1.6 m farther north, before the door: but there is a wall.
+  journey.off_cells = {0, 4};
+  for (int i = 0; i < 40; ++i) {
+    const Belief belief = journey.known();
+    journey.act(journey.look(belief, 1.0));
+  }
+  const RepairedMap& map = *journey.policy.repaired_map();
+  const Cell door = map.part_of({7.5, 10.0});
+  EXPECT_FALSE(map.is_open(door));
+  journey.off_cells = {0, 0};
+  const Belief belief = journey.known();
+  journey.look(belief, 1.0);
+  EXPECT_TRUE(map.is_open(door));
+  EXPECT_LE(journey.actions_to_goal(250), 70);  // 2.8 m + 2.4 m + 2.8 m: 54 steps and turns
   EXPECT_LE(journey.off_goal_m(), 0.3);
 }
 
@@ -249,6 +271,20 @@ TEST(BeliefPolicy, TellsTheWayThatIsLeft) {
   const Belief belief = journey.known();
   const Situation situation = journey.look(belief, 1.0);
   EXPECT_NEAR(journey.policy.distance_to_go_m(situation).value(), 8 * kCell_m, 0.25);
+}
+
+TEST(BeliefPolicy, AGoalWhereNoMiddleOfARobotCanBeIsAsFarAsItIs) {
+  // A pillar that is not drawn stands beside the goal.
+  std::vector<std::string> built = room();
+  built[5] = "#.......#..#";
+  Journey journey{room(), built, {5, 4}, Heading::kEast, {7, 4}};
+  for (int i = 0; i < 4; ++i) {
+    const Belief belief = journey.known();
+    const Situation situation = journey.look(belief, 1.0);
+    EXPECT_LE(journey.policy.distance_to_go_m(situation).value(), 1.2) << i;
+  }
+  const RepairedMap& map = *journey.policy.repaired_map();
+  EXPECT_FALSE(map.is_open(map.part_of({7.5, 4.5})));
 }
 
 TEST(BeliefPolicy, WithoutALocalMapItSaysSo) {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/map_repair.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ascii_map.hpp"
@@ -163,6 +165,28 @@ TEST(RepairedMap, WhereTheRobotFailedIsClosedUntilForgotten) {
   map.forget_failures();
   EXPECT_TRUE(map.is_open(part));
   EXPECT_EQ(map.cost(part), 1);
+}
+
+TEST(RepairedMap, ExchangesWhatWasLearned) {
+  RepairedMap map{two_rooms(), MapRepairParams{}};
+  for (int i = 0; i < 3; ++i) {
+    look(map, open(), kBeforeWall);
+  }
+  map.mark_failed({0, 0});
+  const CoarseMap learned = map.as_map();
+  map.take_changed();
+  RepairedMap::Learned before = map.exchange({});
+  EXPECT_TRUE(is_same_drawing(map.as_map(), RepairedMap{two_rooms(), {}}.as_map()));
+  const std::vector<Cell> changed = map.take_changed();
+  for (const Cell part : {Cell{0, 0}, map.part_of({5.25, 3.25})}) {
+    EXPECT_NE(std::find(changed.begin(), changed.end(), part), changed.end());
+  }
+  map.exchange(std::move(before));
+  EXPECT_TRUE(is_same_drawing(map.as_map(), learned));
+  EXPECT_EQ(map.take_changed(), changed);
+  // As firm as before: one look does not close what three opened.
+  look(map, wall_ahead(), kBeforeWall);
+  EXPECT_TRUE(map.is_open(map.part_of({5.25, 3.25})));
 }
 
 }  // namespace
