@@ -4,6 +4,7 @@
 
 #include "coarse_map_nav/localization/belief_filter.hpp"
 #include "coarse_map_nav/localization/particle_filter.hpp"
+#include "coarse_map_nav/localization/range_looks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,14 @@ std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const Localizati
   }
   throw std::invalid_argument("localization filter \"" + params.filter +
                               "\" is none of discrete, particle, scaled");
+}
+
+std::unique_ptr<ExpectedLooks> make_expected_looks(const CoarseMap& map,
+                                                   const LocalizationParams& params) {
+  return params.filter == "scaled"
+             ? std::make_unique<RangeLooks>(std::make_shared<RangeModel>(map, params.scaled),
+                                            params.scaled)
+             : nullptr;
 }
 
 }  // namespace cmn

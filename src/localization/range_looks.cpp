@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace cmn {
 namespace {
@@ -16,19 +17,18 @@ constexpr std::size_t kCodes = 256;
 
 }  // namespace
 
-RangeLooks::RangeLooks(const MapParts& parts, const RangeTable& table, const LogRange& code,
-                       const ScaleFilterParams& params, const std::vector<float>& log_of_hit)
-    : parts_{parts},
-      table_{table},
-      code_{code},
+RangeLooks::RangeLooks(std::shared_ptr<const RangeModel> model, const ScaleFilterParams& params)
+    : model_{std::move(model)},
       reach_m_{params.reach_m},
       per_ray_{params.range_weight / kBearings / params.independence_m},
       told_(kCodes * kCodes, 0.0F) {
+  const LogRange& code = model_->code;
+  const std::vector<float>& log_of_hit = model_->log_of_hit;
   const auto metres = [&](std::size_t q) {
     return code.offset_m * std::exp(code.step() * static_cast<double>(q));
   };
   constexpr std::size_t kNoError = kCodes - 1;  // in log_of_hit
-  const double cell_m = parts.cuts() * parts.map().resolution();
+  const double cell_m = model_->parts.cuts() * model_->parts.map().resolution();
   for (std::size_t near = 0; near < kCodes; ++near) {
     for (std::size_t far = near + 1; far < kCodes; ++far) {
       const double surely = (metres(far) - cell_m) / metres(near);
@@ -44,16 +44,17 @@ RangeLooks::RangeLooks(const MapParts& parts, const RangeTable& table, const Log
 }
 
 std::vector<double> RangeLooks::apart(const std::vector<GridPose>& poses, double scale) const {
-  const std::uint8_t cap = code_.coded(reach_m_ * scale);
+  const MapParts& parts = model_->parts;
+  const std::uint8_t cap = model_->code.coded(reach_m_ * scale);
   std::vector<std::optional<std::array<std::uint8_t, kBearings>>> expected;
   for (const GridPose& pose : poses) {
     expected.emplace_back();
-    const Point2 p = static_cast<double>(parts_.cuts()) * pose.position_cells;
+    const Point2 p = static_cast<double>(parts.cuts()) * pose.position_cells;
     const Cell part{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
-    if (!parts_.map().contains(part) || !table_.may_stand(parts_.padded_index(part))) {
+    if (!parts.map().contains(part) || !model_->table.may_stand(parts.padded_index(part))) {
       continue;
     }
-    const std::uint8_t* row = table_.row(parts_.padded_index(part));
+    const std::uint8_t* row = model_->table.row(parts.padded_index(part));
     const auto turn =
         static_cast<int>(std::lround(wrap_angle(pose.yaw_rad) / (2.0 * kPi) * kBearings));
     expected.back().emplace();

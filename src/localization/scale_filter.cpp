@@ -20,9 +20,10 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
                          double converged_confidence)
     : map_{map},
       params_{params},
-      parts_{map, params.part_m, params.most_parts},
+      model_{std::make_shared<RangeModel>(map, params)},
+      parts_{model_->parts},
+      looks_{model_, params},
       converged_confidence_{converged_confidence},
-      table_{parts_.map(), code_},
       // No ray leaves the field, at any scale.
       field_{parts_.map(),
              params.reach_m * std::max({1.0, params.least_scale, params.greatest_scale}),
@@ -42,16 +43,6 @@ ScaleFilter::ScaleFilter(const CoarseMap& map, const ScaleFilterParams& params,
       sheets_.push_back(std::move(sheet));
     }
   }
-  for (int error = -255; error <= 255; ++error) {
-    const double share = code_.step() * error / params.range_sigma;
-    const double match = std::exp(-0.5 * share * share);
-    // Shorter than expected: clutter; and where nothing was hit, all that one can say.
-    const double hit = match + (error < 0 ? params.range_short : 0.0);
-    const double free = error < 0 ? 1.0 + params.range_short : match;
-    log_of_hit_.push_back(static_cast<float>(std::log(hit + params.range_random)));
-    log_of_free_.push_back(static_cast<float>(std::log(free + params.range_random)));
-  }
-  looks_.emplace(parts_, table_, code_, params, log_of_hit_);
   log_of_rim_ = std::log(params.rim_penalty + 1e-9);
   scratch_ = no_weights();
   reset();
@@ -73,7 +64,7 @@ double ScaleFilter::spread(const Weights& weight_of, double each) {
         const std::size_t at = parts_.padded_index(c);
         const double share = parts_.map().is_free(c) ? 1.0 : params_.rim_penalty;
         const auto more =
-            table_.may_stand(at)
+            model_->table.may_stand(at)
                 ? static_cast<float>(prior * share * weight_of(heading, sheet.turn_rad, c))
                 : 0.0F;
         weights.add(static_cast<std::uint32_t>(at), more);

@@ -143,7 +143,7 @@ Localization ScaleFilter::localization() const {
           scale_,
           compass_.axes_yaw_rad(),
           is_shown_listed_ ? &shown_ : nullptr,
-          &*looks_};
+          &looks_};
 }
 
 }  // namespace cmn

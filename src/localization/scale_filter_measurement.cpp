@@ -46,7 +46,7 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
     known += ray.is_known();
   }
   const auto range_weight = static_cast<float>(known > 0 ? params_.range_weight / known : 0.0);
-  const int cap = code_.coded(params_.reach_m * sheet.scale);
+  const int cap = model_->code.coded(params_.reach_m * sheet.scale);
   for (int b = 0; b < kBearings; ++b) {
     const Ray& ray = rays[static_cast<std::size_t>(b)];
     auto& by_code = evidence.by_code[static_cast<std::size_t>(b)];
@@ -54,8 +54,8 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
       by_code.fill(0.0F);
       continue;
     }
-    const int seen = code_.coded(ray.range_m * sheet.scale);
-    const std::vector<float>& of_error = ray.is_hit ? log_of_hit_ : log_of_free_;
+    const int seen = model_->code.coded(ray.range_m * sheet.scale);
+    const std::vector<float>& of_error = ray.is_hit ? model_->log_of_hit : model_->log_of_free;
     for (int q = 0; q < 256; ++q) {
       by_code[static_cast<std::size_t>(q)] =
           range_weight * of_error[static_cast<std::size_t>(seen - std::min(q, cap) + 255)];
@@ -80,7 +80,7 @@ ScaleFilter::Evidence ScaleFilter::evidence(const RayProfile& rays, const Sheet&
 
 double ScaleFilter::range_log_likelihood(const Evidence& evidence, int layer,
                                          std::uint32_t part) const {
-  const std::uint8_t* expected = table_.row(part);
+  const std::uint8_t* expected = model_->table.row(part);
   // The look's bearing b lies at b + layer quarter turns on the drawing.
   float range = 0.0F;
   const int first = layer * kBearingsPerQuarter;
@@ -130,7 +130,7 @@ void ScaleFilter::measure_rows(const Evidence& evidence, int layer, const Weight
       const std::uint8_t* any = nullptr;
       const auto here = static_cast<std::size_t>(std::min(4, parts_.map().width() - x));
       for (std::size_t k = 0; k < here; ++k) {
-        expected[k] = weights[i + k] != 0.0F ? table_.row(i + k) : nullptr;
+        expected[k] = weights[i + k] != 0.0F ? model_->table.row(i + k) : nullptr;
         any = expected[k] != nullptr ? expected[k] : any;
       }
       if (any == nullptr) {

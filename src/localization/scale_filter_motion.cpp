@@ -26,7 +26,7 @@ void ScaleFilter::shift(WeightLayer& layer, Cell by) {
     const Cell to = parts_.part_of(i) + by;
     const bool may_go = to.x >= -1 && to.y >= -1 && to.x <= parts_.map().width() &&
                         to.y <= parts_.map().height() &&
-                        table_.may_stand(static_cast<std::size_t>(i + delta));
+                        model_->table.may_stand(static_cast<std::size_t>(i + delta));
     // Mass that faces a wall stays (CMN eq. 1), but hardly: walls that are drawn mostly stand.
     scratch_.add(static_cast<std::uint32_t>(may_go ? i + delta : i),
                  (may_go ? 1.0F : blocked) * weight);
@@ -44,7 +44,7 @@ void ScaleFilter::diffuse(WeightLayer& layer, double share) {
          {std::ptrdiff_t{1}, std::ptrdiff_t{-1}, std::ptrdiff_t{parts_.stride()},
           -std::ptrdiff_t{parts_.stride()}}) {
       const auto target = static_cast<std::uint32_t>(i + step);
-      if (table_.may_stand(target)) {
+      if (model_->table.may_stand(target)) {
         scratch_.add(target, part);
         stays -= part;
       }

@@ -4,6 +4,7 @@
 /// belief and goal -> one action at a time.
 
 #include "coarse_map_nav/Belief.h"
+#include "coarse_map_nav/localization/belief_filter.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 #include "coarse_map_nav/ros/action_orders.hpp"
 #include "coarse_map_nav/ros/conversions.hpp"
@@ -14,6 +15,7 @@
 #include "coarse_map_nav/ros/plan_publisher.hpp"
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -57,6 +59,9 @@ class PlannerNode {
     } else if (!map_ || !cmn::is_same_drawing(*map_, *map)) {
       map_ = *map;
       planner_.emplace(*map, params_.navigator.planning);
+      expected_ = params_.navigator.planning.uses_expected_looks()
+                      ? cmn::make_expected_looks(*map, params_.navigator.localization)
+                      : nullptr;
       publish_status(cmn::resting(State::kStopped, "waiting for a goal"));
       goals_.resume();
     }
@@ -108,7 +113,7 @@ class PlannerNode {
     }
     missing_.clear();
     const cmn::Decision decision =
-        planner_->decide(received->localization(),
+        planner_->decide(received->localization(expected_.get()),
                          looks_.was_blocked(msg.header.stamp, params_.navigator.planning.step_m),
                          local_map ? &*local_map : nullptr);
     plan_.publish_plan(*planner_, received->estimate.cell, *map_, msg.header);
@@ -165,6 +170,7 @@ class PlannerNode {
   cmn::InputMonitor beliefs_;
   std::optional<cmn::CoarseMap> map_;
   std::optional<cmn::Planner> planner_;
+  std::unique_ptr<cmn::ExpectedLooks> expected_;
   coarse_map_nav::Belief::ConstPtr belief_;
   std::string missing_;  ///< why belief_ cannot be decided on yet; else empty
   bool is_under_way_ = false;

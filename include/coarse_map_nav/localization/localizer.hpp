@@ -50,4 +50,9 @@ struct LocalizationParams;
 /// "discrete" (CMN, Robb), "particle" (CMN's baseline MCSE) or "scaled" (ours), by `params.filter`.
 std::unique_ptr<Localizer> make_localizer(const CoarseMap& map, const LocalizationParams& params);
 
+/// What such a localizer expects to see, for a planner that has only its belief; null where it
+/// cannot tell.
+std::unique_ptr<ExpectedLooks> make_expected_looks(const CoarseMap& map,
+                                                   const LocalizationParams& params);
+
 }  // namespace cmn

@@ -5,10 +5,9 @@
 #pragma once
 
 #include "coarse_map_nav/data/expected_looks.hpp"
-#include "coarse_map_nav/localization/map_parts.hpp"
-#include "coarse_map_nav/localization/range_table.hpp"
-#include "coarse_map_nav/localization/scale_filter_params.hpp"
+#include "coarse_map_nav/localization/range_model.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace cmn {
@@ -17,20 +16,13 @@ namespace cmn {
 /// cell: a difference of less than that tells nothing.
 class RangeLooks : public ExpectedLooks {
  public:
-  /// `parts` and their `table` are referred to; `log_of_hit`: log likelihood of a ray by the error
-  /// of its coded range, from -255 on.
-  RangeLooks(const MapParts& parts, const RangeTable& table, const LogRange& code,
-             const ScaleFilterParams& params, const std::vector<float>& log_of_hit);
-  RangeLooks(const RangeLooks&) = delete;
-  RangeLooks& operator=(const RangeLooks&) = delete;
-  ~RangeLooks() override = default;
+  /// `params`: those that the model was made with.
+  RangeLooks(std::shared_ptr<const RangeModel> model, const ScaleFilterParams& params);
 
   std::vector<double> apart(const std::vector<GridPose>& poses, double scale) const override;
 
  private:
-  const MapParts& parts_;
-  const RangeTable& table_;
-  LogRange code_;
+  std::shared_ptr<const RangeModel> model_;
   double reach_m_;
   double per_ray_;           ///< [rays a metre driven] that count as independent, for each
   std::vector<float> told_;  ///< by the codes of two expected ranges, the first times 256

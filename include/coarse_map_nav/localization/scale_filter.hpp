@@ -9,9 +9,8 @@
 #include "coarse_map_nav/data/look_contradiction.hpp"
 #include "coarse_map_nav/localization/hit_field.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
-#include "coarse_map_nav/localization/map_parts.hpp"
 #include "coarse_map_nav/localization/range_looks.hpp"
-#include "coarse_map_nav/localization/range_table.hpp"
+#include "coarse_map_nav/localization/range_model.hpp"
 #include "coarse_map_nav/localization/scale_filter_params.hpp"
 #include "coarse_map_nav/localization/wall_compass.hpp"
 #include "coarse_map_nav/localization/weight_layer.hpp"
@@ -19,6 +18,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -120,15 +120,11 @@ class ScaleFilter : public Localizer {
 
   CoarseMap map_;
   ScaleFilterParams params_;
-  MapParts parts_;
+  std::shared_ptr<const RangeModel> model_;
+  const MapParts& parts_;
+  RangeLooks looks_;
   double converged_confidence_;
-  LogRange code_;
-  RangeTable table_;
   HitField field_;
-  /// Log likelihood of a ray by the error of its coded range, from -255 on.
-  std::vector<float> log_of_hit_;
-  std::vector<float> log_of_free_;
-  std::optional<RangeLooks> looks_;
   double log_of_rim_ = 0.0;
   std::vector<Sheet> sheets_;  ///< all turns of the first scale, of the second, ...
   WeightLayer scratch_;

@@ -39,6 +39,7 @@ struct PlanningParams {
   int max_actions = 500;  ///< CMN: horizon
   std::uint32_t seed = 1;
   bool needs_local_map() const { return policy == "lattice" || policy == "belief"; }
+  bool uses_expected_looks() const { return policy == "belief" && information; }
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("policy", self.policy, OneOf{{"random", "heuristic_tree", "path", "lattice", "belief"}},

@@ -69,10 +69,10 @@ struct ReceivedBelief {
   bool is_converged = false;
   double scale = 1.0;
   double axes_yaw_rad = 0.0;
-  /// Good as long as this is.
-  Localization localization() const {
-    return {belief,     estimate,     position_cells, yaw_rad,
-            confidence, is_converged, scale,          axes_yaw_rad};
+  /// Good as long as this is. `looks`: what the localizer expects to see, which no message tells.
+  Localization localization(const ExpectedLooks* looks = nullptr) const {
+    return {belief,       estimate, position_cells, yaw_rad, confidence,
+            is_converged, scale,    axes_yaw_rad,   nullptr, looks};
   }
 };
 /// All but header and action_id.
