@@ -160,6 +160,10 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   const auto seed = [&rng] { return static_cast<std::uint32_t>(rng()); };
   params.localization.seed = seed();
   params.planning.seed = seed();
+  // With the true crop nothing is left to grow: it is of the drawing.
+  if (task.draws_middle() && task.observation != ObservationKind::kTrueCrop) {
+    params.perception.grow_m = judge.simulation.robot.radius_m;
+  }
   SimulationParams simulation = judge.simulation;
   simulation.robot.sliding |= task.has_paper_setting && judge.papers_robot_slides;
   if (task.observation == ObservationKind::kForward) {
