@@ -166,6 +166,11 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   }
   SimulationParams simulation = judge.simulation;
   simulation.robot.sliding |= task.has_paper_setting && judge.papers_robot_slides;
+  if (task.has_paper_setting && task.observation == ObservationKind::kColorPanorama &&
+      judge.papers_robot_knows_heading) {
+    simulation.robot.turn_noise = simulation.robot.turn_bias = 0.0;
+    params.localization.scaled.compass.enabled = false;
+  }
   if (task.observation == ObservationKind::kForward) {
     simulation.lidar.field_of_view_deg = 180.0;
     simulation.lidar.beams = simulation.lidar.beams / 2 + 1;
