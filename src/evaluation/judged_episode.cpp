@@ -169,7 +169,9 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   if (task.has_paper_setting && task.observation == ObservationKind::kColorPanorama &&
       judge.papers_robot_knows_heading) {
     simulation.robot.turn_noise = simulation.robot.turn_bias = 0.0;
+    // Nothing is left for walls, blurred ones, to say about it.
     params.localization.scaled.compass.enabled = false;
+    params.perception.rolling.align_deg = 0.0;
   }
   if (task.observation == ObservationKind::kForward) {
     simulation.lidar.field_of_view_deg = 180.0;
