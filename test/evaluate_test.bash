@@ -104,7 +104,7 @@ else
 fi
 
 # In colour: four looks a stop, if this build has a network to predict from them.
-if "$program" --world furnished:7 --task CI --method true_pose --episodes 1 --out "$out/colour" >"$out/colour.txt" 2>&1; then
+if "$program" --world furnished:1 --task CI --method true_pose --episodes 1 --out "$out/colour" >"$out/colour.txt" 2>&1; then
   grep -qE '^RESULT task=CI mpp=0.40 method=true_pose SR=1.000 .* episodes=1 pivots=[1-9]' "$out/colour.txt" ||
     wrong "$(cat "$out/colour.txt")"
 else
