@@ -103,6 +103,14 @@ else
   grep -q 'left out of this build' "$out/furnished.txt" || wrong "$(cat "$out/furnished.txt")"
 fi
 
+# In colour: four looks a stop, if this build has a network to predict from them.
+if "$program" --world furnished:1 --task CI --method true_pose --episodes 1 --out "$out/colour" >"$out/colour.txt" 2>&1; then
+  grep -qE '^RESULT task=CI mpp=0.40 method=true_pose SR=1.000 .* episodes=1 pivots=[1-9]' "$out/colour.txt" ||
+    wrong "$(cat "$out/colour.txt")"
+else
+  grep -qE 'left out of this build|this build has no networks' "$out/colour.txt" || wrong "$(cat "$out/colour.txt")"
+fi
+
 # Variants and a kidnapping, on two threads, and in parts by methods; what went worst.
 ablate() { "$program" --world "$worlds/home.yaml" --task CL,CLK --episodes 2 "$@"; }
 ablate --method true_pose,true_pose+no_map_repair --out "$out/ablated" --jobs 2 >"$out/ablated.txt"

@@ -160,8 +160,19 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
   const auto seed = [&rng] { return static_cast<std::uint32_t>(rng()); };
   params.localization.seed = seed();
   params.planning.seed = seed();
+  // With the true crop nothing is left to grow: it is of the drawing.
+  if (task.draws_middle() && task.observation != ObservationKind::kTrueCrop) {
+    params.perception.grow_m = judge.simulation.robot.radius_m;
+  }
   SimulationParams simulation = judge.simulation;
   simulation.robot.sliding |= task.has_paper_setting && judge.papers_robot_slides;
+  if (task.has_paper_setting && task.observation == ObservationKind::kColorPanorama &&
+      judge.papers_robot_knows_heading) {
+    simulation.robot.turn_noise = simulation.robot.turn_bias = 0.0;
+    // Nothing is left for walls, blurred ones, to say about it.
+    params.localization.scaled.compass.enabled = false;
+    params.perception.rolling.align_deg = 0.0;
+  }
   if (task.observation == ObservationKind::kForward) {
     simulation.lidar.field_of_view_deg = 180.0;
     simulation.lidar.beams = simulation.lidar.beams / 2 + 1;

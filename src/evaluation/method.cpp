@@ -159,6 +159,11 @@ NavigatorParams method_params(const Method& method, const Task& task,
     params.perception.accumulate_local_map = "rolling";
     params.localization.scaled.compass.drift_per_look_deg = 2.0;
   }
+  if (is_in_color) {
+    params.localization.scaled.range_sigma = 0.25;
+    params.localization.scaled.range_short = 0.05;
+    params.localization.scaled.field_weight = 4.0;
+  }
   if (method.has_shared_planner && !task.has_paper_setting) {
     params.planning.policy = "lattice";
     // CMN acts on its estimate from the first step on.

@@ -55,10 +55,7 @@ Drawing draw(const Task& task, const CoarseMap& world, const CoarseMap* walls, d
     case DrawingKind::kCoarseGrid:
       break;
   }
-  // The crop is seen on the drawing itself; other looks see what stands in the world.
-  const bool is_of_middle =
-      task.has_paper_setting && task.observation == ObservationKind::kTrueCrop;
-  return coarse_grid(world, mpp, is_of_middle ? radius_m : 0.0);
+  return coarse_grid(world, mpp, task.draws_middle() ? radius_m : 0.0);
 }
 
 }  // namespace cmn

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/perception.hpp"
 
+#include "coarse_map_nav/perception/grown.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -75,7 +77,7 @@ Perception::Perception(const PerceptionParams& params,
       depth_{params.depth},
       predictor_{std::move(predictor)},
       color_looks_{params.accumulate == "panorama"},
-      seen_{params, params.local_occupancy, params.accumulate},
+      seen_{params, with_margin(params.local_occupancy, params.grow_m), params.accumulate},
       local_map_{
           params, params.local_map,
           params.accumulate_local_map == "same" ? params.accumulate : params.accumulate_local_map} {
@@ -123,7 +125,8 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
   Percept percept;
   LocalOccupancy seen = seen_.projector.project(guard, &percept.beams);
   percept.clear_ahead_m = cmn::clear_ahead_m(guard, seen, params_.guard);
-  percept.seen = seen_.accumulator->fuse(seen_with(seen_, std::move(seen)), T_odom_robot);
+  percept.seen = grown(seen_.accumulator->fuse(seen_with(seen_, std::move(seen)), T_odom_robot),
+                       params_.grow_m, params_.local_occupancy.size);
   percept.is_complete =
       params_.uses_color() ? color_looks_.is_complete() : seen_.accumulator->is_complete();
   if (with_local_map) {

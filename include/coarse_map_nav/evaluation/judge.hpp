@@ -37,6 +37,7 @@ struct JudgeParams {
   /// DepthParams takes the same for an obstacle: the LoCoBot of 0.6 m does not drive under tables.
   double robot_height_m = 0.8;
   bool papers_robot_slides = true;
+  bool papers_robot_knows_heading = true;
   bool counts_commanded_way = false;
   bool forgets_at_goal = false;
   KidnapParams kidnap;
@@ -52,6 +53,10 @@ struct JudgeParams {
     visit("papers_robot_slides", self.papers_robot_slides, Anything{},
           "in the CMN paper's own setting (CG) the robot slides along walls, whatever "
           "simulation/robot/sliding says");
+    visit(
+        "papers_robot_knows_heading", self.papers_robot_knows_heading, Anything{},
+        "in CI and HD the odometry has the true heading at every step, as the CMN paper's robot is "
+        "told it; false: at the start alone, and the turns of panoramas let it drift");
     visit("counts_commanded_way", self.counts_commanded_way, Anything{},
           "the way driven is that of all forward actions, also of those that a wall ended, as in "
           "CMN's released code");

@@ -29,10 +29,13 @@ struct Task {
   ObservationKind observation = ObservationKind::kLidar;
   bool knows_heading = false;  ///< at the start
   /// Of CMN in Habitat: the robot slides along walls and has no obstacle guard, each method has its
-  /// own planner, and a map that is cropped for looks is of where the robot's middle can be.
+  /// own planner, and a map that is made of the world is of where the robot's middle can be.
   bool has_paper_setting = false;
   /// Once the robot is carried elsewhere, and its odometry does not notice (KidnapParams).
   bool kidnaps = false;
+
+  /// Not what stands in the world is drawn but where the robot's middle can be.
+  bool draws_middle() const { return has_paper_setting && drawing == DrawingKind::kCoarseGrid; }
 };
 
 /// Throws std::invalid_argument naming the known tasks.

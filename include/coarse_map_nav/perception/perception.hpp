@@ -28,6 +28,7 @@ struct PerceptionParams {
   std::string source = "lidar";
   std::string accumulate = "none";
   std::string accumulate_local_map = "same";
+  double grow_m = 0.0;
   DepthParams depth;
   RgbParams rgb;
   PanoramaParams panorama;
@@ -49,6 +50,9 @@ struct PerceptionParams {
     visit("accumulate_local_map", self.accumulate_local_map, OneOf{{"same", "rolling"}},
           "likewise of what the planner is told; same: as accumulate says; rolling: for a camera "
           "that does not see what is near, and has seen it before");
+    visit("grow_m", self.grow_m, Between{0.0, 1.0},
+          "[m] what the localizer is told of is larger by it all round: the robot's radius where "
+          "the drawing is of where its middle can be; 0: the drawing is of what stands there");
     visit.group("depth", self.depth);
     visit.group("rgb", self.rgb);
     visit.group("panorama", self.panorama);

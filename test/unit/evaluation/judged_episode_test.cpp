@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/evaluation/judged_episode.hpp"
 
+#include "coarse_map_nav/simulation/planar_sensors.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ascii_map.hpp"
+#include "box_room.hpp"
+#include "fake_predictor.hpp"
 #include <gtest/gtest.h>
 
 namespace cmn {
@@ -63,7 +68,7 @@ EpisodeRow run(const Scene& scene, const Route& route, const Setting& setting,
   const Drawing drawing = draw(task, scene.map, nullptr, 0.5, 1, 0.18);
   return run_judged_episode(scene, task, drawing, route, method, params, setting.judge,
                             {setting.task, scene.name, 0.5, setting.method, 0, setting.seed},
-                            no_clock, recorder);
+                            no_clock, recorder, std::make_shared<FakePredictor>());
 }
 
 /// 5 m along the corridor.
@@ -339,6 +344,39 @@ TEST(JudgedEpisode, ThePapersRobotSlidesUnlessToldNotTo) {
   setting.judge.papers_robot_slides = false;
   const EpisodeRow stopping = run(scene, along(kPi / 4.0), setting);
   EXPECT_GT(sliding.driven_m, stopping.driven_m);
+}
+
+/// Grey wherever it looks, over a LiDAR in the plane.
+class GreyCamera : public PlanarSensors {
+ public:
+  using PlanarSensors::PlanarSensors;
+  ColorImage color(const Pose2& /*T_world_robot*/, double stamp_s) override {
+    const CameraModel camera = CameraModel::from_field_of_view(80, 80, kPi / 2.0);
+    return {stamp_s, camera, camera_mount(0.1, 0.5, 0.0),
+            cv::Mat(camera.height, camera.width, CV_8UC3, cv::Scalar{9, 9, 9})};
+  }
+};
+
+TEST(JudgedEpisode, ThePapersRobotIsToldItsHeadingHoweverOftenItLooksRound) {
+  Scene scene = corridor();
+  scene.sensors = [&scene](const LidarParams& lidar, std::uint32_t seed) {
+    return std::make_unique<GreyCamera>(scene.world, lidar, seed);
+  };
+  Setting setting;
+  setting.task = "CI";
+  setting.method = "ours";
+  setting.max_actions = 30;
+  const auto greatest_drift_rad = [&] {
+    double greatest = 0.0;
+    run(scene, along(0.0), setting, [&greatest](const EpisodeMoment& moment) {
+      greatest = std::max(greatest,
+                          std::abs(wrap_angle(moment.T_world_robot.yaw - moment.T_odom_robot.yaw)));
+    });
+    return greatest;
+  };
+  EXPECT_LT(greatest_drift_rad(), 1e-9);
+  setting.judge.papers_robot_knows_heading = false;
+  EXPECT_GT(greatest_drift_rad(), 0.05);
 }
 
 TEST(JudgedEpisode, WhoGoesOnAtTheGoalMayHaveToStartOver) {

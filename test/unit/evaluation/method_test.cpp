@@ -84,6 +84,8 @@ TEST(Task, DrawsItsMap) {
   const CoarseMap navigable = draw(find_task("CG"), world, nullptr, 0.4, 1, 0.2).map();
   EXPECT_LT(free_share(navigable), free_share(plain));
   EXPECT_TRUE(navigable.is_free({4, 4}));
+  EXPECT_EQ(draw(find_task("CI"), world, nullptr, 0.4, 1, 0.2).map().occupied(),
+            navigable.occupied());
   const CoarseMap walls = draw(find_task("WL"), world, nullptr, 0.4, 1, 0.2).map();
   EXPECT_TRUE(walls.is_free({8, 8}));
   // The walls of a house are known.

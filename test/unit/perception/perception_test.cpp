@@ -183,6 +183,18 @@ TEST(Perception, RgbTurnsRoundPredictsOnceItIsRoundAndTheLidarGuards) {
   }
 }
 
+TEST(Perception, WhatTheLocalizerIsToldGrowsWhatThePlannerIsToldDoesNot) {
+  const RangeScan scan = scan_of_boxes({{{1.5, -9.0, 0.0}, {1.6, 9.0, 2.0}}}, 0.3, 360, {});
+  PerceptionParams params = params_of("lidar");
+  params.grow_m = 0.3;
+  const Percept percept = Perception{params}.look({&scan}, {}, true);
+  EXPECT_EQ(percept.seen.size, params.local_occupancy.size);
+  EXPECT_EQ(occupancy_at(percept.seen, 1.25, 0.05), 1.0F);
+  EXPECT_EQ(occupancy_at(percept.seen, 1.05, 0.05), 0.0F);
+  EXPECT_EQ(occupancy_at(percept.local_map, 1.25, 0.05), 0.0F);
+  EXPECT_NEAR(percept.clear_ahead_m, 1.5 - 0.17, 0.05);
+}
+
 TEST(Perception, RgbWithAMemoryKeepsWhatItSawBeforeItTurned) {
   Perception perception{params_of("rgb", "rolling"), std::make_shared<FakePredictor>()};
   const RangeScan scan = scan_of_boxes({}, 0.3, 360, {});
