@@ -44,7 +44,7 @@ bool LearnedPlaces::arrive(RepairedMap& map, Point2 position_cells, double yaw_r
       learned = std::move(known->learned);
       set_aside_.erase(known);
     }
-    held_.learned = map.exchange(std::move(learned));
+    held_.learned = map.exchange(learned);
     set_aside_.push_front(std::move(held_));
     set_aside_.resize(std::min(set_aside_.size(), kMostSetAside));
   }

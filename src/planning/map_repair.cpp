@@ -51,7 +51,7 @@ void RepairedMap::forget() {
   }
 }
 
-RepairedMap::Learned RepairedMap::exchange(Learned instead) {
+RepairedMap::Learned RepairedMap::exchange(const Learned& instead) {
   Learned before;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (parts_[i].was_seen || parts_[i].has_failed) {

@@ -91,7 +91,7 @@ class RepairedMap {
   bool mark_failed(Cell part);
   void forget_failures();
   /// As drawn again, but for what was learned `instead`; returns what was learned till now.
-  Learned exchange(Learned instead);
+  Learned exchange(const Learned& instead);
   /// The parts whose cost may have changed since this was last asked, but for the two that forget.
   std::vector<Cell> take_changed() { return std::exchange(changed_, {}); }
   /// As drawn again.

@@ -181,7 +181,7 @@ TEST(RepairedMap, ExchangesWhatWasLearned) {
   for (const Cell part : {Cell{0, 0}, map.part_of({5.25, 3.25})}) {
     EXPECT_NE(std::find(changed.begin(), changed.end(), part), changed.end());
   }
-  map.exchange(std::move(before));
+  map.exchange(before);
   EXPECT_TRUE(is_same_drawing(map.as_map(), learned));
   EXPECT_EQ(map.take_changed(), changed);
   // As firm as before: one look does not close what three opened.
