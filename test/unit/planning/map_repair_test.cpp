@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ascii_map.hpp"
@@ -175,7 +174,7 @@ TEST(RepairedMap, ExchangesWhatWasLearned) {
   map.mark_failed({0, 0});
   const CoarseMap learned = map.as_map();
   map.take_changed();
-  RepairedMap::Learned before = map.exchange({});
+  const RepairedMap::Learned before = map.exchange({});
   EXPECT_TRUE(is_same_drawing(map.as_map(), RepairedMap{two_rooms(), {}}.as_map()));
   const std::vector<Cell> changed = map.take_changed();
   for (const Cell part : {Cell{0, 0}, map.part_of({5.25, 3.25})}) {
