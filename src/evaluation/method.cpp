@@ -55,6 +55,24 @@ bool is_same_as(const Method& base, const Method& variant, const std::string& co
       [](const ParamDoc& x, const ParamDoc& y) { return x.default_value == y.default_value; });
 }
 
+/// What a task of panoramas sees with, and how such a look is weighed, are those of the preset that
+/// the nodes have for it.
+void look_by_panorama(const Task& task, const std::string& config_dir, ParamTree& tree) {
+  const bool is_in_color = task.observation == ObservationKind::kColorPanorama;
+  if (!is_in_color && task.observation != ObservationKind::kDepthPanorama) {
+    return;
+  }
+  for (const auto& [name, value] :
+       read_param_file(config_dir + (is_in_color ? "/rgb.yaml" : "/depth.yaml"))) {
+    for (const char* part :
+         {"perception/source", "perception/accumulate", "localization/scaled/"}) {
+      if (name.rfind(part, 0) == 0) {
+        tree[name] = value;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> method_names() {
@@ -136,6 +154,7 @@ NavigatorParams method_params(const Method& method, const Task& task,
   const std::string file = config_dir + "/" + method.preset;
   NavigatorParams params;
   ParamTree tree = read_param_file(file);
+  look_by_panorama(task, config_dir, tree);
   for (const auto& [name, value] : method.changes) {
     tree[name] = value;
   }
@@ -151,18 +170,6 @@ NavigatorParams method_params(const Method& method, const Task& task,
   }
   if (task.has_paper_setting) {
     params.perception.guard.type = "none";
-  }
-  const bool is_in_color = task.observation == ObservationKind::kColorPanorama;
-  if (is_in_color || task.observation == ObservationKind::kDepthPanorama) {
-    params.perception.source = is_in_color ? "rgb" : "depth";
-    params.perception.accumulate = "panorama";
-    params.perception.accumulate_local_map = "rolling";
-    params.localization.scaled.compass.drift_per_look_deg = 2.0;
-  }
-  if (is_in_color) {
-    params.localization.scaled.range_sigma = 0.25;
-    params.localization.scaled.range_short = 0.05;
-    params.localization.scaled.field_weight = 4.0;
   }
   if (method.has_shared_planner && !task.has_paper_setting) {
     params.planning.policy = "lattice";

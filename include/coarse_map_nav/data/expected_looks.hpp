@@ -14,9 +14,10 @@ namespace cmn {
 /// A pose on the drawing: x, y in cells of the grid, cell (0, 0) from 0 to 1.
 struct GridPose {
   Point2 position_cells;
-  double yaw_rad = 0.0;
+  double yaw_rad = 0.0;  ///< in the axes of the grid
 };
 
+/// Of a drawing, by whoever localizes on it.
 class ExpectedLooks {
  public:
   virtual ~ExpectedLooks() = default;

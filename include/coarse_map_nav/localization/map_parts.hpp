@@ -12,6 +12,8 @@
 
 namespace cmn {
 
+/// The hypotheses of a ScaleFilter stand in the middles of parts. In maps too large for that a part
+/// is a cell.
 class MapParts {
  public:
   /// Parts of at most `part_m` a side, but larger ones where those were more than `most_parts` of

@@ -21,9 +21,9 @@ namespace cmn {
 /// of the way there and the expected cost-to-go from there, the expectation over where the robot
 /// may be (QMDP, Littman et al. 1995), on a map that is repaired as the robot goes.
 ///
-/// Where they disagree, the way is worth what looks on it are expected to tell (information.hpp).
-/// A goal on which all hypotheses agree is thus driven to before the belief has converged. While
-/// they disagree, standing still would often be best: then the robot explores.
+/// A goal on which all hypotheses agree is thus driven to before the belief has converged. Where
+/// they disagree, the way is worth what looks on it are expected to tell (information.hpp); and
+/// where standing still would yet be best, the robot explores.
 class BeliefPolicy : public Policy {
  public:
   BeliefPolicy(const LatticeParams& lattice, const MapRepairParams& repair, double step_m,
