@@ -7,6 +7,7 @@
 #include "coarse_map_nav/data/coarse_map.hpp"
 #include "coarse_map_nav/localization/localizer.hpp"
 #include "coarse_map_nav/params.hpp"
+#include "coarse_map_nav/perception/contact_memory.hpp"
 #include "coarse_map_nav/perception/perception.hpp"
 #include "coarse_map_nav/planning/planner.hpp"
 
@@ -61,6 +62,10 @@ class Navigator {
   /// none.
   Decision step(Percept percept, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
     percept_ = std::move(percept);
+    if (last_outcome == MotionOutcome::kBlocked) {
+      contacts_.add(T_odom_robot);
+    }
+    contacts_.mark(percept_.local_map, T_odom_robot);
     planner_.action_ended(last_outcome);
     if (!percept_.is_complete) {
       return planner_.look_round(localizer_->localization().axes_yaw_rad);
@@ -72,6 +77,7 @@ class Navigator {
  private:
   NavigatorParams params_;
   Perception perception_;
+  ContactMemory contacts_{params_.perception.guard.radius_m};
   std::unique_ptr<Localizer> localizer_;
   Planner planner_;
   Percept percept_;

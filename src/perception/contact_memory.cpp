@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/perception/contact_memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cmn {
@@ -34,6 +35,10 @@ void ContactMemory::mark(LocalOccupancy& local, const Pose2& T_odom_robot) {
   while (!contacts_.empty() && driven_m_ - contacts_.front().driven_m > kRemembered_m) {
     contacts_.pop_front();
   }
+  const auto is_refuted = [&](const Contact& contact) {
+    return norm(contact.position - T_odom_robot.position()) < radius_m_;
+  };
+  contacts_.erase(std::remove_if(contacts_.begin(), contacts_.end(), is_refuted), contacts_.end());
   const Pose2 T_robot_odom = inverse(T_odom_robot);
   const auto column_of = [&](double metres) {
     return std::floor(metres / local.resolution + 0.5 * local.size);

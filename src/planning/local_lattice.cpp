@@ -14,6 +14,9 @@ constexpr double kImpossible = std::numeric_limits<double>::infinity();
 constexpr double kGain_m = 0.01;
 constexpr double kUnit_m = 0.005;  ///< costs are queued in whole units
 
+/// So many places of the lattice, about half a square metre, are no room.
+constexpr std::size_t kPocketPlaces = 8;
+
 std::uint32_t units(double cost_m) {
   return static_cast<std::uint32_t>(std::lround(cost_m / kUnit_m));
 }
@@ -28,14 +31,14 @@ double LocalLattice::clearance_at(Cell half_steps) const {
              : clearance_.at_cell(ix, iy);
 }
 
-double LocalLattice::step_cost_m(Cell from, Cell to) const {
+double LocalLattice::step_cost_m(Cell from, Cell to, double clearance_m) const {
   const double start_m = clearance_at(2 * from);
   const double middle_m = clearance_at(from + to);
   const double end_m = clearance_at(2 * to);
   const double least_m = std::min(middle_m, end_m);
   const bool leaves_narrowness =
-      start_m < params_.clearance_m && middle_m >= start_m && end_m > start_m + kGain_m;
-  if (least_m < 0.0 || (least_m < params_.clearance_m && !leaves_narrowness)) {
+      start_m < clearance_m && middle_m >= start_m && end_m > start_m + kGain_m;
+  if (least_m < 0.0 || (least_m < clearance_m && !leaves_narrowness)) {
     return kImpossible;
   }
   const double slack_m = std::max(params_.comfort_m - params_.clearance_m, 1e-6);
@@ -60,6 +63,16 @@ void LocalLattice::look_at(const LocalOccupancy& local) {
 const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& local,
                                                       bool may_go_forward) {
   look_at(local);
+  for (const double share : {1.0, 0.5, 0.25}) {
+    search_with(share * params_.clearance_m, may_go_forward);
+    if (places_.size() > kPocketPlaces) {
+      break;
+    }
+  }
+  return states_;
+}
+
+void LocalLattice::search_with(double clearance_m, bool may_go_forward) {
   const int side = 2 * reach_ + 1;
   const auto place_of = [&](Cell offset) {
     return static_cast<std::size_t>((offset.y + reach_) * side + offset.x + reach_);
@@ -106,7 +119,7 @@ const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& loca
       const Cell ahead = here.offset + turned(Cell{1, 0}, here.quarter_turns);
       if (std::abs(ahead.x) <= reach_ && std::abs(ahead.y) <= reach_ &&
           (may_go_forward || parent != 0)) {
-        const double step = step_cost_m(here.offset, ahead);
+        const double step = step_cost_m(here.offset, ahead, clearance_m);
         if (step < kImpossible) {
           offer({ahead, here.quarter_turns, 0.0, parent, ActionType::kMoveForward},
                 total + units(step));
@@ -119,7 +132,6 @@ const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& loca
     }
     bucket.clear();
   }
-  return states_;
 }
 
 ActionType LocalLattice::first_action(std::size_t state) const {

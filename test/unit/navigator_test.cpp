@@ -7,6 +7,7 @@
 #include "coarse_map_nav/mapping/places.hpp"
 #include "coarse_map_nav/mapping/regions.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,34 @@ TEST(Navigator, ASensorThatSeesAQuarterArrivesByTurningRoundAtEveryStop) {
   EXPECT_GE(pivots, 8) << "four at least at two stops";
   EXPECT_EQ(pivots % 4, 0) << "a panorama ends where it began";
   EXPECT_LE(actions, params.planning.max_actions);
+}
+
+TEST(Navigator, RemembersWhatItRanIntoWithoutSeeingIt) {
+  const CoarseMap map = largest_region(read_map(kSource + "/maps/home.yaml")).map;
+  NavigatorParams params;
+  ASSERT_TRUE(load_params(read_param_file(kSource + "/config/navigator.yaml"), params).empty());
+  Navigator navigator{map, params};
+  RangeScan scan;
+  scan.angle_increment_rad = kPi / 180.0;
+  scan.range_min_m = 0.1;
+  scan.range_max_m = 8.0;
+  scan.ranges_m.assign(360, 3.0F);
+  const auto most_near = [&navigator](double most_m) {
+    const LocalOccupancy& local = navigator.local_map();
+    const int half = static_cast<int>(most_m / local.resolution);
+    float most = 0.0F;
+    for (int iy = -half; iy < half; ++iy) {
+      for (int ix = -half; ix < half; ++ix) {
+        most = std::max(most, local.occupancy[local.index_of(local.size / 2 + ix,
+                                                             local.size / 2 + iy)]);
+      }
+    }
+    return most;
+  };
+  navigator.step(scan, {}, MotionOutcome::kSucceeded);
+  EXPECT_LT(most_near(0.5), 0.5F);
+  navigator.step(scan, {}, MotionOutcome::kBlocked);
+  EXPECT_EQ(most_near(0.5), 1.0F);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class ContactMemory {
   void add(const Pose2& T_odom_robot);
   /// The cells of the contacts become occupied, seen for sure. To be asked at every look: contacts
   /// of more than kRemembered_m ago are forgotten, since odometry drifts, and a robot may have been
-  /// carried.
+  /// carried; so are those where the robot now stands.
   void mark(LocalOccupancy& local, const Pose2& T_odom_robot);
   /// The odometry begins anew.
   void forget();

@@ -49,7 +49,9 @@ struct LatticeState {
 /// Dijkstra over (step forward, turn left, turn right) through a local occupancy grid that is
 /// aligned with the robot. A step is possible when its middle and its end lie on cells that were
 /// seen to be free, at least `clearance_m` from everything seen to be occupied; a robot that stands
-/// nearer than that may leave towards more clearance.
+/// nearer than that may leave towards more clearance. A robot in a pocket without a way out got in
+/// somehow: then what is in the way (a bumper's contacts, drift) is not as exact as it seems, and
+/// half, at last a quarter of the clearance is asked for.
 ///
 /// The search does not know the drawing: it tells what is possible, not what is good.
 class LocalLattice {
@@ -76,9 +78,10 @@ class LocalLattice {
 
  private:
   void look_at(const LocalOccupancy& local);
+  void search_with(double clearance_m, bool may_go_forward);
   double clearance_at(Cell half_steps) const;
   /// The price of the step between two neighbours of the lattice [m], infinite when impossible.
-  double step_cost_m(Cell from, Cell to) const;
+  double step_cost_m(Cell from, Cell to, double clearance_m) const;
 
   LatticeParams params_;
   double step_m_;

@@ -58,6 +58,17 @@ TEST(ContactMemory, ForgetsByTheWayDriven) {
   EXPECT_FALSE(is_marked(looks % 2)) << "too long ago";
 }
 
+TEST(ContactMemory, WhereTheRobotStandsNothingElseIs) {
+  ContactMemory memory{0.17};
+  memory.add({});
+  LocalOccupancy beside = free_ground();
+  memory.mark(beside, {0.2, 0.2, 0.0});
+  EXPECT_EQ(occupancy_at(beside, 0.05, -0.15), 1.0F);
+  LocalOccupancy over = free_ground();
+  memory.mark(over, {0.2, 0.0, 0.0});
+  EXPECT_EQ(std::count(over.occupancy.begin(), over.occupancy.end(), 1.0F), 0);
+}
+
 TEST(ContactMemory, ForgetsWhenTheOdometryBeginsAnew) {
   ContactMemory memory{0.17};
   memory.add({});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/planning/local_lattice.hpp"
 
+#include "coarse_map_nav/data/geometry.hpp"
 #include "coarse_map_nav/data/random.hpp"
 
 #include <algorithm>
@@ -196,6 +197,39 @@ TEST(LocalLattice, ARobotThatStandsTooNearMayLeaveButNotComeNearer) {
   EXPECT_EQ(find(states, {1, 0}, 0), nullptr);
   EXPECT_NE(find(states, {-1, 0}, 2), nullptr);
   EXPECT_NE(find(states, {-2, 0}, 2), nullptr);
+}
+
+/// Single occupied cells on a circle about the robot, as a bumper leaves them.
+LocalOccupancy ring(double radius_m, int count, int missing) {
+  LocalOccupancy local{61, 0.05};
+  std::fill(local.occupancy.begin(), local.occupancy.end(), 0.0F);
+  std::fill(local.confidence.begin(), local.confidence.end(), 1.0F);
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * kPi * i / count;
+    const auto column = [&](double metres) {
+      return static_cast<int>(std::floor(metres / local.resolution + 0.5 * local.size));
+    };
+    if (i != missing) {
+      local.occupancy[local.index_of(column(radius_m * std::cos(angle)),
+                                     column(radius_m * std::sin(angle)))] = 1.0F;
+    }
+  }
+  return local;
+}
+
+TEST(LocalLattice, ThinContactsAroundTheRobotDoNotShutItInForGood) {
+  LatticeParams params;
+  LocalLattice lattice{params, kStep_m};
+  EXPECT_GT(lattice.search(ring(0.35, 8, -1)).size(), 400U) << "gaps of 0.27 m";
+  EXPECT_LE(lattice.search(ring(0.35, 40, -1)).size(), 4U * 9U) << "no gap at all";
+}
+
+TEST(LocalLattice, WhereThereIsRoomTheWholeClearanceIsAskedFor) {
+  LatticeParams params;
+  LocalLattice lattice{params, kStep_m};
+  for (const LatticeState& state : lattice.search(ring(1.0, 20, -1))) {
+    EXPECT_LT(norm(lattice.position_of(state)), 1.0) << "gaps of 0.31 m are too narrow";
+  }
 }
 
 TEST(LocalLatticeProperty, NoStepComesCloserThanTheClearance) {
