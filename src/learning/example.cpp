@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 
 #include <opencv2/imgproc.hpp>
 
@@ -47,6 +48,24 @@ cv::Mat disc(int radius) {
     }
   }
   return kernel;
+}
+
+/// Clears kTruthSeen where all views that hold a cell are black; diagonals are in two.
+void hide_black(cv::Mat& truth, const std::array<bool, kViewCount>& is_black) {
+  for (int iy = 0; iy < truth.rows; ++iy) {
+    for (int ix = 0; ix < truth.cols; ++ix) {
+      const int x = 2 * ix + 1 - truth.cols;
+      const int y = 2 * iy + 1 - truth.rows;
+      const bool along = is_black[x > 0 ? 0 : 2];
+      const bool across = is_black[y > 0 ? 1 : 3];
+      const bool is_hidden = std::abs(x) == std::abs(y)  ? along && across
+                             : std::abs(x) > std::abs(y) ? along
+                                                         : across;
+      if (is_hidden) {
+        truth.at<std::uint8_t>(iy, ix) &= static_cast<std::uint8_t>(~kTruthSeen);
+      }
+    }
+  }
 }
 
 /// The grid as a robot sees it that has turned left once: what was to the left is ahead.
@@ -113,6 +132,20 @@ Example mirrored(const Example& example) {
   }
   cv::flip(example.near, result.near, 0);
   cv::flip(example.wide, result.wide, 0);
+  return result;
+}
+
+Example blacked_out(const Example& example, const std::array<bool, kViewCount>& is_black) {
+  Example result = example;
+  for (std::size_t k = 0; k < kViewCount; ++k) {
+    if (is_black[k]) {
+      result.panorama.views[k] = cv::Mat::zeros(kViewSide, kViewSide, CV_8UC3);
+    }
+  }
+  result.near = example.near.clone();
+  result.wide = example.wide.clone();
+  hide_black(result.near, is_black);
+  hide_black(result.wide, is_black);
   return result;
 }
 

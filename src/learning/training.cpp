@@ -7,6 +7,7 @@
 #include "coarse_map_nav/learning/training_log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -76,6 +77,16 @@ LocalOccupancy predicted_square(const torch::Tensor& logits, double side_m) {
     square = torch::cat({square, torch::ones_like(square)});
   }
   return local_occupancy(square, side_m, 0.0);
+}
+
+/// One to three views, any set as likely as another.
+std::array<bool, kViewCount> drawn_views(std::mt19937_64& rng) {
+  const std::size_t set = 1 + draw_index(rng, 14);  // of 1 to 14 of the 16, as bits
+  std::array<bool, kViewCount> is_drawn{};
+  for (std::size_t k = 0; k < kViewCount; ++k) {
+    is_drawn[k] = ((set >> k) & 1U) != 0;
+  }
+  return is_drawn;
 }
 
 /// What makes a training the one it is.
@@ -165,6 +176,9 @@ class Trainer {
       if (job_.params.augment) {
         example = turned(example, static_cast<int>(draw_index(rng, 4)));
         example = draw_index(rng, 2) == 0 ? example : mirrored(example);
+      }
+      if (job_.params.black_share > 0.0 && draw_uniform(rng) < job_.params.black_share) {
+        example = blacked_out(example, drawn_views(rng));
       }
       examples.push_back(std::move(example));
     }

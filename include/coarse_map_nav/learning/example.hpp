@@ -6,6 +6,7 @@
 
 #include "coarse_map_nav/perception/color_panorama.hpp"
 
+#include <array>
 #include <cstdint>
 
 #include <opencv2/core.hpp>
@@ -46,5 +47,8 @@ void mark_seen(cv::Mat& truth, double side_m, double view_rad);
 Example turned(const Example& example, int quarter_turns);
 /// The pair of the world's mirror image, left and right exchanged.
 Example mirrored(const Example& example);
+/// The pair of a robot that has not looked where `is_black`, by view: those views are black, and of
+/// the cells that no other view holds none is in sight.
+Example blacked_out(const Example& example, const std::array<bool, kViewCount>& is_black);
 
 }  // namespace cmn

@@ -28,6 +28,7 @@ struct TrainingParams {
   int patience = 5;
   int validation_examples = 1000;
   bool augment = true;
+  double black_share = 0.0;
   double in_sight_weight = 0.5;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
@@ -44,6 +45,9 @@ struct TrainingParams {
     visit("validation_examples", self.validation_examples, Between{1, 1e9},
           "[panoramas] at most that are validated on");
     visit("augment", self.augment, Anything{}, "mirror and turn the training examples at random");
+    visit("black_share", self.black_share, Between{0.0, 1.0},
+          "[-] of the training examples lose one to three views, as a robot's that looks ahead "
+          "alone");
     visit("in_sight_weight", self.in_sight_weight, Between{0.0, 100.0},
           "[-] of the loss of the confidence beside that of the occupancy");
   }

@@ -92,5 +92,37 @@ TEST(Example, TheMirrorImageHasItsWallOnTheOtherSide) {
   EXPECT_EQ(mirror.panorama.views[1].at<cv::Vec3b>(0, 0)[0], 0);
 }
 
+TEST(Example, NothingIsInSightWhereAViewIsBlack) {
+  std::mt19937_64 rng{2};
+  Example example = toy_example(rng);
+  example.near.setTo(kTruthSeen);
+  example.wide.setTo(kTruthSeen | kTruthOccupied);
+  const Example ahead_alone = blacked_out(example, {false, true, true, true});
+  EXPECT_TRUE(are_equal(ahead_alone.panorama.views[0], example.panorama.views[0]));
+  for (std::size_t k = 1; k < kViewCount; ++k) {
+    EXPECT_EQ(cv::norm(ahead_alone.panorama.views[k], cv::NORM_INF), 0.0) << "view " << k;
+  }
+  EXPECT_TRUE(is_seen(ahead_alone.near, 100, 64));
+  EXPECT_TRUE(is_seen(ahead_alone.near, 100, 100)) << "on the diagonal, at the view's border";
+  EXPECT_FALSE(is_seen(ahead_alone.near, 99, 100)) << "left of the diagonal";
+  EXPECT_FALSE(is_seen(ahead_alone.near, 20, 64)) << "behind";
+  EXPECT_FALSE(is_seen(ahead_alone.near, 20, 20));
+  EXPECT_EQ(ahead_alone.wide.at<std::uint8_t>(32, 10), kTruthOccupied) << "only its sight is gone";
+}
+
+TEST(Example, BlackViewsTurnWithTheRobot) {
+  std::mt19937_64 rng{3};
+  Example example = toy_example(rng);
+  mark_seen(example.near, kNearSide_m, kPi / 2.0);
+  mark_seen(example.wide, kWideSide_m, kPi / 2.0);
+  const Example left_black = turned(blacked_out(example, {false, true, false, false}), 1);
+  const Example ahead_black = blacked_out(turned(example, 1), {true, false, false, false});
+  EXPECT_TRUE(are_equal(left_black.near, ahead_black.near));
+  EXPECT_TRUE(are_equal(left_black.wide, ahead_black.wide));
+  for (std::size_t k = 0; k < kViewCount; ++k) {
+    EXPECT_TRUE(are_equal(left_black.panorama.views[k], ahead_black.panorama.views[k]));
+  }
+}
+
 }  // namespace
 }  // namespace cmn
