@@ -14,8 +14,8 @@ constexpr double kImpossible = std::numeric_limits<double>::infinity();
 constexpr double kGain_m = 0.01;
 constexpr double kUnit_m = 0.005;  ///< costs are queued in whole units
 
-/// So many places of the lattice, about half a square metre, are no room.
-constexpr std::size_t kPocketPlaces = 8;
+/// Less ground than that is a pocket and no room.
+constexpr double kPocket_m2 = 0.2;
 
 std::uint32_t units(double cost_m) {
   return static_cast<std::uint32_t>(std::lround(cost_m / kUnit_m));
@@ -65,7 +65,7 @@ const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& loca
   look_at(local);
   for (const double share : {1.0, 0.5, 0.25}) {
     search_with(share * params_.clearance_m, may_go_forward);
-    if (places_.size() > kPocketPlaces) {
+    if (static_cast<double>(places_.size()) * step_m_ * step_m_ > kPocket_m2) {
       break;
     }
   }
