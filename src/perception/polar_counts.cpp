@@ -29,6 +29,8 @@ constexpr int kRestBits = 12;
 constexpr int kRestShift = 7;
 constexpr int kLogShift = kRestShift + kRestBits;
 constexpr std::uint32_t kRestMask = (1U << kRestBits) - 1U;
+/// Counts of what counts nowhere, in turn: additions to one wait for each other.
+constexpr std::size_t kNone = 16;
 constexpr int kCountShift = 38;  ///< of a Count, below which its rests are added up
 constexpr std::uint64_t kOnePoint = std::uint64_t{1} << kCountShift;
 
@@ -86,7 +88,7 @@ PolarCounts::PolarCounts(const DepthParams& params)
 
 void PolarCounts::begin(const RangeScan& layout) {
   beams_ = layout.ranges_m.size();
-  counts_.resize((beams_ + 2) * row_size_ + 1);
+  counts_.resize((beams_ + 2) * row_size_ + kNone);
   rows_per_rad_ = static_cast<float>(1.0 / layout.angle_increment_rad);
   // Half a row more, for rounding, and one more, since there is one of no beam before the first.
   row_offset_ = 1.5F - static_cast<float>(layout.angle_min_rad) * rows_per_rad_;
@@ -118,7 +120,7 @@ void PolarCounts::add(const PointPiece& piece, DepthReport& report) {
   const auto least_m2 = static_cast<float>(params_.range_min_m * params_.range_min_m);
   const auto lowest_m = static_cast<float>(params_.lowest_m);
   const auto highest_m = static_cast<float>(params_.highest_m);
-  const std::int32_t none = static_cast<std::int32_t>(counts_.size() - 1);
+  const auto first_none = static_cast<std::int32_t>(counts_.size() - kNone);
   const std::int32_t before_nearest = nearest_ - 1;
   const auto farthest = static_cast<std::int32_t>(range_bins_) - 2;
   // Nothing is infinitely farther than its neighbour, so that nothing of a loose cloud flies.
@@ -143,6 +145,7 @@ void PolarCounts::add(const PointPiece& piece, DepthReport& report) {
         row_start[i] + 2 * std::min(log_range, farthest) + static_cast<std::int32_t>(is_in_way);
     // One or the other, by a mask: of a choice the compiler makes a branch, and one at a time.
     const auto counts = static_cast<std::int32_t>(is_point & is_in_band & ~is_flying);
+    const std::int32_t none = first_none + static_cast<std::int32_t>(i % kNone);
     slot[i] = none + ((own - none) & -counts);
     rest[i] = (static_cast<std::uint32_t>(bits) >> kRestShift) & kRestMask;
     points += static_cast<std::int32_t>(is_point);
@@ -177,7 +180,7 @@ void PolarCounts::read_out(RangeScan& scan, DepthReport& report) {
   if (first <= last) {
     std::fill(row_of(first + 1), row_of(last + 2), Count{0});
   }
-  counts_.back() = 0;
+  std::fill(counts_.end() - kNone, counts_.end(), Count{0});
 }
 
 void PolarCounts::sum_about(std::size_t row) {

@@ -53,7 +53,7 @@ class PolarCounts {
   std::size_t beams_ = 0;
   float row_offset_ = 0.0F;  ///< row of the bearing 0
   float rows_per_rad_ = 0.0F;
-  /// Rows by bearing, of which the first and the last are of no beam; then one for all the rest.
+  /// Rows by bearing, of which the first and the last are of no beam; then some for all the rest.
   /// All are 0 between looks.
   std::vector<Count> counts_;
   std::vector<Count> all_about_, in_way_about_;  ///< by range, see sum_about()
