@@ -54,23 +54,31 @@ BENCHMARK_CAPTURE(cloud_to_occupancy, xyzrgb, 32, true)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(cloud_to_occupancy, loose, 16, false)->Unit(benchmark::kMillisecond);
 
 #ifdef CMN_PCL
-/// VoxelGrid, PassThrough (with StatisticalOutlierRemoval or without) and a line for every point,
-/// to the same grid. Counts the share of cells seen by both in which they agree with ours.
+/// The same bytes to the same grid: read, VoxelGrid, PassThrough (and StatisticalOutlierRemoval)
+/// and a line for every point. Counts the share of cells seen by both in which they agree.
 void plain_pcl(benchmark::State& state) {
-  const bool removes_outliers = state.range(0) != 0;
-  const auto cloud = pcl_cloud_of(room_image());
+  const auto point_step = static_cast<std::size_t>(state.range(0));
+  const ReferenceParams how{0.01 * static_cast<double>(state.range(1)), state.range(2) != 0};
+  const DepthImage& image = room_image();
+  const pcl::PCLPointCloud2 message = pcl_message_of(image, point_step);
+  ReferencePipeline reference{DepthParams{}, kGrid, how};
   LocalOccupancy theirs;
   for (auto _ : state) {
-    theirs = reference_occupancy(cloud, room_image(), DepthParams{}, kGrid, removes_outliers);
+    theirs = reference.project(message, image.T_robot_camera);
     benchmark::DoNotOptimize(theirs);
   }
   DepthProjector projector{DepthParams{}};
-  const Comparison compared =
-      compare(RangeProjector{kGrid}.project(projector.scan(room_image())), theirs);
+  const Comparison compared = compare(
+      RangeProjector{kGrid}.project(projector.scan(view_of(message.data, image, point_step, true))),
+      theirs);
   state.counters["cells"] = compared.both;
   state.counters["agree"] = compared.agreement();
 }
-BENCHMARK(plain_pcl)->Arg(0)->Arg(1)->ArgName("outliers")->Unit(benchmark::kMillisecond);
+BENCHMARK(plain_pcl)
+    ->ArgsProduct({{16, 32}, {3, 10}, {0}})
+    ->Args({32, 3, 1})
+    ->ArgNames({"bytes", "leaf_cm", "outliers"})
+    ->Unit(benchmark::kMillisecond);
 #endif
 
 }  // namespace

@@ -73,16 +73,17 @@ std::optional<FloorPlane> refined(const FloorPlane& plane,
 
 }  // namespace
 
+FloorEstimator::FloorEstimator(const FloorParams& params)
+    : params_{params}, steepest_{static_cast<float>(std::tan(params.tilt_deg * kPi / 180.0))} {}
+
 bool FloorEstimator::is_candidate(const Eigen::Vector3f& p) const {
   const float range_m = p.head<2>().norm();
-  const auto slope = static_cast<float>(std::tan(params_.tilt_deg * kPi / 180.0));
   return range_m < kReach_m &&
-         std::abs(p.z()) < slope * range_m + static_cast<float>(params_.offset_m);
+         std::abs(p.z()) < steepest_ * range_m + static_cast<float>(params_.offset_m);
 }
 
 bool FloorEstimator::is_plausible(const FloorPlane& plane) const {
-  const double slope = std::tan(params_.tilt_deg * kPi / 180.0);
-  return static_cast<double>(plane.slope.norm()) <= slope &&
+  return plane.slope.norm() <= steepest_ &&
          std::abs(static_cast<double>(plane.offset_m)) <= params_.offset_m;
 }
 

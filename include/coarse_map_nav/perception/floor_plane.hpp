@@ -44,7 +44,7 @@ enum class FloorSource { kNominal, kLast, kSeen };
 /// little floor is in view to tell its slope, the last good plane stands in, or the nominal one.
 class FloorEstimator {
  public:
-  explicit FloorEstimator(const FloorParams& params) : params_{params} {}
+  explicit FloorEstimator(const FloorParams& params);
 
   /// True for a point that could be floor.
   bool is_candidate(const Eigen::Vector3f& p) const;
@@ -59,6 +59,7 @@ class FloorEstimator {
   bool is_plausible(const FloorPlane& plane) const;
 
   FloorParams params_;
+  float steepest_;  ///< slope [-] of `tilt_deg`
   FloorPlane last_;
   bool has_last_ = false;
   FloorSource source_ = FloorSource::kNominal;
