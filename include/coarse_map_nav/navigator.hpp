@@ -44,8 +44,7 @@ class Navigator {
 
   /// `data` was measured at `T_odom_robot`, after the last action had ended with `last_outcome`.
   Decision step(const SensorData& data, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
-    return step(perception_.look(data, T_odom_robot, params_.planning.needs_local_map()),
-                T_odom_robot, last_outcome);
+    return step(look(data, T_odom_robot, last_outcome), T_odom_robot, last_outcome);
   }
   Decision step(const RangeScan& scan, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
     return step(SensorData{&scan}, T_odom_robot, last_outcome);
@@ -53,19 +52,14 @@ class Navigator {
   /// With an observation for the localizer that does not come from the scan.
   Decision step(const RangeScan& scan, LocalOccupancy seen, const Pose2& T_odom_robot,
                 MotionOutcome last_outcome) {
-    Percept percept =
-        perception_.look(SensorData{&scan}, T_odom_robot, params_.planning.needs_local_map());
+    Percept percept = look(SensorData{&scan}, T_odom_robot, last_outcome);
     percept.seen = std::move(seen);
     return step(std::move(percept), T_odom_robot, last_outcome);
   }
-  /// With all that perception makes of its data. The local map may be empty where the policy needs
+  /// With all that perception makes of its data and of the bumper's contacts. The local map may be empty where the policy needs
   /// none.
   Decision step(Percept percept, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
     percept_ = std::move(percept);
-    if (last_outcome == MotionOutcome::kBlocked) {
-      contacts_.add(T_odom_robot);
-    }
-    contacts_.mark(percept_.local_map, T_odom_robot);
     planner_.action_ended(last_outcome);
     if (!percept_.is_complete) {
       return planner_.look_round(localizer_->localization().axes_yaw_rad);
@@ -75,6 +69,16 @@ class Navigator {
   }
 
  private:
+  /// A blocked robot has met something.
+  Percept look(const SensorData& data, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
+    Percept percept = perception_.look(data, T_odom_robot, params_.planning.needs_local_map());
+    if (last_outcome == MotionOutcome::kBlocked) {
+      contacts_.add(T_odom_robot);
+    }
+    contacts_.mark(percept.local_map, T_odom_robot);
+    return percept;
+  }
+
   NavigatorParams params_;
   Perception perception_;
   ContactMemory contacts_{params_.perception.guard.radius_m};
