@@ -56,8 +56,8 @@ class Navigator {
     percept.seen = std::move(seen);
     return step(std::move(percept), T_odom_robot, last_outcome);
   }
-  /// With all that perception makes of its data and of the bumper's contacts. The local map may be empty where the policy needs
-  /// none.
+  /// With all that perception makes of its data and of the bumper's contacts. The local map may be
+  /// empty where the policy needs none.
   Decision step(Percept percept, const Pose2& T_odom_robot, MotionOutcome last_outcome) {
     percept_ = std::move(percept);
     planner_.action_ended(last_outcome);

@@ -15,7 +15,7 @@ constexpr double kGain_m = 0.01;
 constexpr double kUnit_m = 0.005;  ///< costs are queued in whole units
 
 /// Less ground than that is a pocket and no room.
-constexpr double kPocket_m2 = 0.2;
+constexpr double kPocketM2 = 0.2;
 
 std::uint32_t units(double cost_m) {
   return static_cast<std::uint32_t>(std::lround(cost_m / kUnit_m));
@@ -65,7 +65,7 @@ const std::vector<LatticeState>& LocalLattice::search(const LocalOccupancy& loca
   look_at(local);
   for (const double share : {1.0, 0.5, 0.25}) {
     search_with(share * params_.clearance_m, may_go_forward);
-    if (static_cast<double>(places_.size()) * step_m_ * step_m_ > kPocket_m2) {
+    if (static_cast<double>(places_.size()) * step_m_ * step_m_ > kPocketM2) {
       break;
     }
   }

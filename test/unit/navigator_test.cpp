@@ -59,8 +59,8 @@ TEST(Navigator, RemembersWhatItRanIntoWithoutSeeingIt) {
     float most = 0.0F;
     for (int iy = -half; iy < half; ++iy) {
       for (int ix = -half; ix < half; ++ix) {
-        most = std::max(most, local.occupancy[local.index_of(local.size / 2 + ix,
-                                                             local.size / 2 + iy)]);
+        const int centre = local.size / 2;
+        most = std::max(most, local.occupancy[local.index_of(centre + ix, centre + iy)]);
       }
     }
     return most;
