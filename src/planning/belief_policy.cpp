@@ -51,7 +51,6 @@ void BeliefPolicy::reset() {
   last_ = ActionType::kStop;
   target_.reset();
   trail_.clear();
-  looks_since_doubt_ = 0;
 }
 
 void BeliefPolicy::look(const Situation& situation) {
@@ -72,37 +71,12 @@ void BeliefPolicy::look(const Situation& situation) {
   }
   learn(situation);
   update_cost_to_go(situation);
-  doubt(situation);
   hypotheses_ = hypotheses(situation);
   best_ = best_state(situation, hypotheses_);
 }
 
-void BeliefPolicy::doubt(const Situation& situation) {
-  ++looks_since_doubt_;
-  if (repair_.doubt_every == 0 || looks_since_doubt_ <= repair_.doubt_every ||
-      !may_learn(situation) || !leads_through_walls(situation)) {
-    return;
-  }
-  looks_since_doubt_ = 0;
-  map_->exchange({});
-  learn(situation);
-  update_cost_to_go(situation);
-}
-
-bool BeliefPolicy::leads_through_walls(const Situation& situation) const {
-  std::optional<Cell> part = cost_to_go_.next(map_->part_of(situation.position_cells));
-  while (part) {
-    const std::optional<Cell> after = cost_to_go_.next(*part);
-    if (after && map_->was_found_blocked(*part)) {
-      return true;
-    }
-    part = after;
-  }
-  return false;
-}
-
 void BeliefPolicy::learn(const Situation& situation) {
-  if (!may_learn(situation)) {
+  if (!repair_.enabled || situation.confidence < repair_.confidence) {
     return;
   }
   const double yaw_rad = situation.yaw_rad;

@@ -37,15 +37,8 @@ class BeliefPolicy : public Policy {
   const RepairedMap* repaired_map() const override { return map_ ? &*map_ : nullptr; }
 
  private:
-  /// Whether the robot is sure enough of where it looks at to learn from it.
-  bool may_learn(const Situation& situation) const {
-    return repair_.enabled && situation.confidence >= repair_.confidence;
-  }
+  /// Into the map, as far as the robot is sure where it looks at.
   void learn(const Situation& situation);
-  /// What was learned leaves no way to the goal: forgets all but what is in view.
-  void doubt(const Situation& situation);
-  /// Whether even the cheapest way to the goal does. The goal itself is no wall.
-  bool leads_through_walls(const Situation& situation) const;
   void update_cost_to_go(const Situation& situation);
   static std::vector<Hypothesis> hypotheses(const Situation& situation);
   /// The likeliest of the candidates, all together 1.
@@ -72,7 +65,6 @@ class BeliefPolicy : public Policy {
   std::optional<RepairedMap> map_;
   LearnedPlaces places_;
   RepairedCostToGo cost_to_go_;
-  int looks_since_doubt_ = 0;           ///< or since the journey began
   bool has_goal_ = false;               ///< cost_to_go_ leads to it
   std::vector<Hypothesis> hypotheses_;  ///< where the robot may be
   std::size_t best_ = 0;                ///< state of the lattice to go to; 0: stay

@@ -24,7 +24,6 @@ struct MapRepairParams {
   double known_share = 0.6;
   int drawn_wall_cost = 25;
   int seen_wall_cost = 100;
-  int doubt_every = 100;
   template <class Self, class Visitor>
   static void visit_params(Self& self, Visitor&& visit) {
     visit("enabled", self.enabled, Anything{}, "plan on a copy of the drawing that is repaired");
@@ -41,9 +40,6 @@ struct MapRepairParams {
           "may lack a door there");
     visit("seen_wall_cost", self.seen_wall_cost, Between{1, 1000},
           "[-] and one through what was seen to be blocked");
-    visit("doubt_every", self.doubt_every, Between{0, 100000},
-          "[looks] map repair: where even the cheapest way leads through what was seen to be "
-          "blocked, all is forgotten but what is in view, at most once in so many looks; 0: never");
   }
 };
 
@@ -84,10 +80,6 @@ class RepairedMap {
   int cost(Cell part) const;
   /// No step ever costs more.
   int dearest() const;
-  /// By looks, or since the robot could not get through.
-  bool was_found_blocked(Cell part) const {
-    return parts_(part).has_failed || (parts_(part).was_seen && !parts_(part).is_open);
-  }
   bool is_open(Cell part) const { return parts_(part).is_open && !parts_(part).has_failed; }
 
   /// Learns from what the robot sees around itself, standing at `position_cells` of the drawing

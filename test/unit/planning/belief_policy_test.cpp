@@ -186,32 +186,6 @@ TEST(BeliefPolicy, WhatItLearnedAtAWrongPlaceDoesNotStay) {
   EXPECT_LE(journey.off_goal_m(), 0.3);
 }
 
-TEST(BeliefPolicy, WhereNoWayIsLeftItDoubtsWhatItLearned) {
-  const auto way_left_m = [](int doubt_every, int looks) {
-    Journey journey{rooms(true, false), rooms(true, false), {6, 10}, Heading::kEast, {11, 10}};
-    MapRepairParams repair;
-    repair.doubt_every = doubt_every;
-    journey.policy = BeliefPolicy{LatticeParams{}, repair, kCmnStep_m, true};
-    // It gets stuck in the door, in all of its four parts.
-    for (const double y_cells : {9.25, 9.75, 10.25, 10.75}) {
-      journey.T_world_robot = {6.4 * kCell_m, y_cells * kCell_m, 0.0};
-      const Belief belief = journey.known();
-      Situation situation = journey.look(belief, 1.0);
-      situation.is_stuck = true;
-      journey.policy.look(situation);
-    }
-    for (int i = 0; i < looks; ++i) {
-      const Belief belief = journey.known();
-      journey.look(belief, 1.0);
-    }
-    const Belief belief = journey.known();
-    return journey.policy.distance_to_go_m(journey.look(belief, 1.0)).value();
-  };
-  EXPECT_GT(way_left_m(20, 5), 10.0);
-  EXPECT_LT(way_left_m(20, 20), 3.0);
-  EXPECT_GT(way_left_m(0, 20), 10.0) << "never";
-}
-
 TEST(BeliefPolicy, ExploresWhileItKnowsNothing) {
   Journey journey{rooms(true, true), rooms(true, true), {3, 6}, Heading::kEast, {11, 6}};
   const Belief flat = Belief::uniform(journey.drawing());
