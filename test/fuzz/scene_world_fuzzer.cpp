@@ -58,10 +58,8 @@ std::vector<std::string> fuzz_seeds() {
 }  // namespace cmn
 
 /// sdformat keeps the documents of worlds that it gave up on, and makes so many small things for
-/// each that a full quarantine of what was freed costs three quarters of the time.
-extern "C" const char* __asan_default_options() {
-  return "detect_leaks=0:quarantine_size_mb=8:malloc_context_size=5";
-}
+/// each that a full quarantine of what was freed costs a third of the time and more.
+extern "C" const char* __asan_default_options() { return "detect_leaks=0:quarantine_size_mb=8"; }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) {

@@ -56,10 +56,10 @@ TEST(Navigator, RemembersWhatItRanIntoWithoutSeeingIt) {
   const auto most_near = [&navigator](double most_m) {
     const LocalOccupancy& local = navigator.local_map();
     const int half = static_cast<int>(most_m / local.resolution);
+    const int centre = local.size / 2;
     float most = 0.0F;
     for (int iy = -half; iy < half; ++iy) {
       for (int ix = -half; ix < half; ++ix) {
-        const int centre = local.size / 2;
         most = std::max(most, local.occupancy[local.index_of(centre + ix, centre + iy)]);
       }
     }
