@@ -77,8 +77,8 @@ void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(stale_after_s_ > 0.0 ? Status::WARN : Status::OK, "nothing received yet");
   } else if (stale_after_s_ > 0.0 && (now - last_arrival_).toSec() > stale_after_s_) {
     status.summary(Status::ERROR, "silent");
-  } else if (drops() > 0) {
-    status.summary(Status::WARN, "some messages were dropped");
+  } else if (drops() > drops_at_report_) {
+    status.summary(Status::WARN, "some messages were dropped since the last report");
   } else {
     status.summary(Status::OK, "receiving");
   }
@@ -95,6 +95,7 @@ void InputMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   }
   last_report_ = now;
   count_at_report_ = count_;
+  drops_at_report_ = drops();
 }
 
 }  // namespace cmn

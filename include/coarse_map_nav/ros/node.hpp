@@ -60,6 +60,7 @@ int spin_node(int argc, char** argv, const std::string& name) {
 }
 
 /// Counts what comes in and what is dropped, and tells /diagnostics: rate, age, drops by reason.
+/// A drop is a warning in the next report alone; the counts last.
 class InputMonitor {
  public:
   /// `stale_after_s`: an input that is silent for longer is an error; 0: it may stay silent.
@@ -78,6 +79,7 @@ class InputMonitor {
   double stale_after_s_;
   std::uint64_t count_ = 0;
   std::uint64_t count_at_report_ = 0;
+  std::uint64_t drops_at_report_ = 0;
   ros::Time last_report_;
   ros::Time last_stamp_;
   ros::Time last_arrival_;
