@@ -4,10 +4,19 @@
 
 namespace cmn {
 
+bool UpdateGate::action_ended(std::uint32_t id, double stamp_s) {
+  const Ended ended{id, stamp_s};
+  if (ended == folded_in_) {
+    return false;
+  }
+  ended_ = ended;
+  return true;
+}
+
 bool UpdateGate::is_due(double stamp_s, const Pose2& T_odom_robot) {
   bool due = !T_odom_last_.has_value();
   if (ended_ && stamp_s > ended_->stamp_s) {
-    action_id_ = ended_->id;
+    folded_in_ = *ended_;
     ended_.reset();
     due = true;
   } else if (!due && params_.update_on == "motion") {

@@ -83,7 +83,9 @@ class LocalizerNode {
   }
 
   void on_result(const coarse_map_nav::MotionResult& result) {
-    gate_.action_ended(result.id, result.header.stamp.toSec());
+    if (!gate_.action_ended(result.id, result.header.stamp.toSec())) {
+      publisher_.repeat();  // the planner asks for the action again: it has not heard the belief
+    }
   }
 
   void on_observation(const Occupancy::ConstPtr& msg) {

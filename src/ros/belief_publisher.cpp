@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coarse_map_nav/ros/belief_publisher.hpp"
 
-#include "coarse_map_nav/Belief.h"
 #include "coarse_map_nav/ros/conversions.hpp"
 
 #include <algorithm>
@@ -110,10 +109,10 @@ void BeliefPublisher::publish(const Localizer& localizer, std::uint32_t action_i
   pose.pose.covariance[35] = spread.yaw;
   pose_pub_.publish(pose);
 
-  coarse_map_nav::Belief belief = message_of(at, map);
-  belief.header = pose.header;
-  belief.action_id = action_id;
-  belief_pub_.publish(belief);
+  belief_ = message_of(at, map);
+  belief_.header = pose.header;
+  belief_.action_id = action_id;
+  belief_pub_.publish(belief_);
 
   publish_grids(at, map, stamp);
   publish_hypotheses(at, map, stamp);

@@ -297,6 +297,9 @@ TEST_F(ReplayedJourney, InProcessTheNavigatorBelievesAndDecidesTheSame) {
   int compared = 0;
   for (std::size_t i = 0; i + 1 < beliefs_.size(); ++i) {
     const auto& belief = *beliefs_.all()[i];
+    if (i > 0 && belief.header.stamp == beliefs_.all()[i - 1]->header.stamp) {
+      continue;  // sent again, because the planner asked
+    }
     SCOPED_TRACE("belief " + std::to_string(i) + " after action " +
                  std::to_string(belief.action_id));
     const Look* observation = look_at(observations_, belief.header.stamp);

@@ -113,9 +113,10 @@ class LocalizerTest : public testing::Test {
     send_map();
     ASSERT_TRUE(tick_until([this] { return !beliefs_.empty(); })) << localizer_->output();
   }
-  void end_action(std::uint32_t id) {
+  void end_action(std::uint32_t id) { end_action(id, time_s_); }
+  void end_action(std::uint32_t id, double stamp_s) {
     coarse_map_nav::MotionResult result;
-    result.header.stamp = ros::Time{time_s_};
+    result.header.stamp = ros::Time{stamp_s};
     result.id = id;
     results_.publish(result);
   }
@@ -254,6 +255,23 @@ TEST_F(LocalizerTest, EachActionIsFoldedInOnceByAnObservationNewerThanItsEnd) {
     EXPECT_EQ(beliefs_.size(), before + 1);
   }
   expect_sane();
+}
+
+TEST_F(LocalizerTest, AnAnswerThatIsRepeatedBringsTheSameBeliefAgain) {
+  believe_anything();
+  end_action(1);
+  const double ended_s = time_s_;
+  ASSERT_TRUE(tick_until([this] { return beliefs_.back().action_id == 1; }));
+  const coarse_map_nav::Belief first = beliefs_.back();
+  const std::size_t before = beliefs_.size();
+  end_action(1, ended_s);
+  ASSERT_TRUE(tick_until([&] { return beliefs_.size() > before; })) << localizer_->output();
+  for (int i = 0; i < 5; ++i) {
+    tick();
+  }
+  EXPECT_EQ(beliefs_.size(), before + 1);
+  EXPECT_EQ(beliefs_.back().header.stamp, first.header.stamp);
+  EXPECT_EQ(beliefs_.back().probability, first.probability);
 }
 
 TEST_F(LocalizerTest, AnEndedActionWithoutAnObservationIsAskedFor) {

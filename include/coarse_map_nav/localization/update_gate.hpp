@@ -35,8 +35,9 @@ class UpdateGate {
 
   /// The next observation is folded in, whatever came before.
   void reset() { T_odom_last_.reset(); }
-  /// An action has ended; `stamp_s` is the time of the odometry that ended it.
-  void action_ended(std::uint32_t id, double stamp_s) { ended_ = Ended{id, stamp_s}; }
+  /// An action has ended; `stamp_s` is the time of the odometry that ended it. False, and nothing
+  /// becomes due, when that very end is folded in already: the answer was repeated.
+  bool action_ended(std::uint32_t id, double stamp_s);
   /// True, and remembered, when this observation is to be folded in.
   bool is_due(double stamp_s, const Pose2& T_odom_robot);
   /// Time has gone backwards: the bag was started again, the simulation reset.
@@ -44,18 +45,19 @@ class UpdateGate {
   /// An action has ended that no observation has followed yet.
   bool is_waiting() const { return ended_.has_value(); }
   /// The last action folded in, 0 before the first.
-  std::uint32_t action_id() const { return action_id_; }
+  std::uint32_t action_id() const { return folded_in_.id; }
 
  private:
   struct Ended {
     std::uint32_t id;
     double stamp_s;
+    bool operator==(const Ended& other) const { return id == other.id && stamp_s == other.stamp_s; }
   };
   UpdateGateParams params_;
   std::optional<Pose2> T_odom_last_;
   std::optional<double> last_stamp_s_;
   std::optional<Ended> ended_;
-  std::uint32_t action_id_ = 0;
+  Ended folded_in_{0, -1.0};
 };
 
 }  // namespace cmn

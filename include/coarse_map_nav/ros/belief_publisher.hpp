@@ -4,6 +4,7 @@
 /// A belief in all the forms that others want it in.
 #pragma once
 
+#include "coarse_map_nav/Belief.h"
 #include "coarse_map_nav/localization/localizer.hpp"
 
 #include <array>
@@ -28,12 +29,15 @@ class BeliefPublisher {
   void place_layers(const CoarseMap& map);
   /// Stamps everything with `stamp`.
   void publish(const Localizer& localizer, std::uint32_t action_id, const ros::Time& stamp);
+  /// Sends the last `belief` again as it was.
+  void repeat() { belief_pub_.publish(belief_); }
 
  private:
   void publish_grids(const Localization& at, const CoarseMap& map, const ros::Time& stamp);
   void publish_hypotheses(const Localization& at, const CoarseMap& map, const ros::Time& stamp);
 
   std::string map_frame_;
+  coarse_map_nav::Belief belief_;  ///< the last one published
   ros::Publisher belief_pub_;
   std::array<ros::Publisher, 4> layer_pubs_;
   ros::Publisher labels_pub_;
