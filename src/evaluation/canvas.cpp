@@ -77,6 +77,12 @@ void Canvas::text(const std::string& text, cv::Point2d at, double height, const 
               kEnlarged * height / kCapital, colour, text_stroke(height, bold), cv::LINE_AA);
 }
 
+void Canvas::text_within(double room, const std::string& text, cv::Point2d at, double height,
+                         const cv::Scalar& colour, bool bold) {
+  const double share = std::min(1.0, room / std::max(1.0, text_width(text, height, bold)));
+  this->text(text, at, share * height, colour, Align::kLeft, bold);
+}
+
 void Canvas::picture(const cv::Mat& image, const cv::Rect2d& area) {
   const cv::Rect place = enlarged(area);
   cv::Mat stretched;

@@ -214,11 +214,11 @@ cv::Mat run_picture(const RunSetting& setting, const RunRecord& record, const st
   // The world is as tall as two drawings, one above the other, where that leaves them large enough.
   double width = (kWidth - 3.0 * kMargin) / 2.0;
   if (setting.world) {
-    const double room = kWidth - 4.0 * kMargin;
+    const double panels = kWidth - 4.0 * kMargin;
     const double world_rise = setting.world->height() / static_cast<double>(setting.world->width());
     const double map_rise = setting.map.height() / static_cast<double>(setting.map.width());
-    width = std::clamp((room * world_rise - kBetween) / (2.0 * (map_rise + world_rise)), 0.2 * room,
-                       0.35 * room);
+    width = std::clamp((panels * world_rise - kBetween) / (2.0 * (map_rise + world_rise)),
+                       0.2 * panels, 0.35 * panels);
   }
   const double world_width = kWidth - 2.0 * width - 4.0 * kMargin;
   const double left = setting.world ? world_width + 2.0 * kMargin : kMargin;
@@ -227,8 +227,9 @@ cv::Mat run_picture(const RunSetting& setting, const RunRecord& record, const st
   const double body = std::max(world_height, 2.0 * height + kBetween);
 
   Canvas canvas{{kWidth, cvRound(kTop + body + 74.0)}, kMapColours.paper};
-  canvas.text(title, {kMargin, 40.0}, 17.0, kMapColours.ink, Align::kLeft, true);
-  canvas.text(subtitle, {kMargin, 66.0}, kLetter, kMapColours.faint_ink);
+  const double room = kWidth - 2.0 * kMargin;
+  canvas.text_within(room, title, {kMargin, 40.0}, 17.0, kMapColours.ink, true);
+  canvas.text_within(room, subtitle, {kMargin, 66.0}, kLetter, kMapColours.faint_ink);
   if (setting.world) {
     canvas.text("the world, and the way driven", {kMargin, kTop - 8.0}, kLetter, kMapColours.ink);
     const MapView view = view_in(*setting.world, {kMargin, kTop}, {world_width, world_height});
@@ -269,9 +270,10 @@ std::vector<FilmFrame> run_film(const RunSetting& setting, const RunRecord& reco
         is_last ? record.moments().back()
                 : record.moments()[i * (record.moments().size() - 1) / (count - 1)];
     Canvas canvas{size, kMapColours.paper};
-    canvas.text(title, {kGap, 24.0}, 12.0, kMapColours.ink, Align::kLeft, true);
-    canvas.text(caption_of(setting, moment) + (is_last ? ": " + ending : ""), {kGap, 48.0}, 10.0,
-                is_last ? kMapColours.ink : kMapColours.faint_ink);
+    const double room = size.width - 2.0 * kGap;
+    canvas.text_within(room, title, {kGap, 24.0}, 12.0, kMapColours.ink, true);
+    canvas.text_within(room, caption_of(setting, moment) + (is_last ? ": " + ending : ""),
+                       {kGap, 48.0}, 10.0, is_last ? kMapColours.ink : kMapColours.faint_ink);
     draw_drawing(canvas, view_in(setting.map, {kGap, kTop}, {kPanel, height}), setting, moment);
     if (setting.world) {
       draw_world(canvas, view_in(*setting.world, {2.0 * kGap + kPanel, kTop}, {kPanel, height}),

@@ -29,6 +29,9 @@ class Canvas {
   /// `at`: on the base line. `height`: of a capital letter.
   void text(const std::string& text, cv::Point2d at, double height, const cv::Scalar& colour,
             Align align = Align::kLeft, bool bold = false);
+  /// The same from the left, in smaller letters where it would be wider than `room`.
+  void text_within(double room, const std::string& text, cv::Point2d at, double height,
+                   const cv::Scalar& colour, bool bold = false);
   /// An 8-bit BGR picture, stretched to `area` with its pixels left square and sharp.
   void picture(const cv::Mat& image, const cv::Rect2d& area);
 

@@ -95,6 +95,21 @@ TEST(RunPicture, IsAPageWideAndShowsGoalTruthAndEstimate) {
   }
 }
 
+TEST(RunPicture, ShrinksWordsThatWouldRunOffThePage) {
+  const RunSetting setting = setting_of_a_room();
+  const std::string long_words(300, 'M');
+  const auto margin_of = [](const cv::Mat& picture) {
+    cv::Mat dark;
+    cv::inRange(picture(cv::Rect{0, 0, picture.cols, 55}), cv::Scalar::all(0),
+                cv::Scalar::all(120), dark);
+    return picture.cols - (cv::boundingRect(dark).x + cv::boundingRect(dark).width);
+  };
+  EXPECT_GT(margin_of(run_picture(setting, journey(setting.map, 30), long_words, long_words)), 15);
+  EXPECT_GT(
+      margin_of(run_film(setting, journey(setting.map, 30), long_words, long_words, 1)[0].picture),
+      10);
+}
+
 TEST(RunPicture, LeavesTheTruthOutWhereItIsNotKnown) {
   RunSetting setting = setting_of_a_room();
   setting.world.reset();
