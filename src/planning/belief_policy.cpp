@@ -34,6 +34,9 @@ constexpr std::size_t kLongestTrail = 300;
 /// Nearer than this to the goal there is no gap to get through.
 constexpr double kNearGoal_m = 0.6;
 constexpr int kMostGaps = 8;  ///< closed in one decision
+/// A robot that has turned round once and goes on turning is in doubt between ways, each of which
+/// looks better from the other's heading.
+constexpr int kMostTurns = 5;
 
 }  // namespace
 
@@ -49,6 +52,7 @@ void BeliefPolicy::reset() {
   places_.expect_anywhere();
   has_goal_ = false;
   last_ = ActionType::kStop;
+  turns_ = 0;
   target_.reset();
   trail_.clear();
 }
@@ -336,6 +340,11 @@ ActionType BeliefPolicy::choose(const Situation& situation, std::mt19937_64& rng
       quarter_turns(action) != 0 && quarter_turns(last_) == -quarter_turns(action);
   if (undoes_a_turn) {
     action = best_ != 0 && may_go_forward() ? ActionType::kMoveForward : last_;
+  }
+  turns_ = quarter_turns(action) != 0 ? turns_ + 1 : 0;
+  if (turns_ > kMostTurns && may_go_forward()) {
+    action = ActionType::kMoveForward;
+    turns_ = 0;
   }
   last_ = action;
   remember(action);

@@ -71,6 +71,7 @@ class BeliefPolicy : public Policy {
   std::optional<Cell> target_;  ///< of the last decision, from where the robot is now [steps]
   std::deque<Cell> trail_;      ///< where it has been, from where it is now [steps]
   ActionType last_ = ActionType::kStop;
+  int turns_ = 0;  ///< without a step between them
 };
 
 }  // namespace cmn

@@ -5,6 +5,7 @@
 #include "coarse_map_nav/planning/cost_to_go.hpp"
 #include "coarse_map_nav/simulation/range_sensor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -131,6 +132,25 @@ std::vector<std::string> rooms(bool has_north_door, bool has_south_door) {
     rows[12 - i] = has_south_door ? door : rows[12 - i];
   }
   return rows;
+}
+
+TEST(BeliefPolicy, DoesNotTurnForEver) {
+  // Whichever way it has turned, the better way lies to the left again.
+  Journey journey{room(), room(), {6, 2}, Heading::kEast, {6, 8}};
+  int turns = 0;
+  int most_turns = 0;
+  int steps = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Belief belief = journey.known();
+    const bool is_step = journey.act(journey.look(belief, 1.0)) == ActionType::kMoveForward;
+    steps += is_step;
+    turns = is_step ? 0 : turns + 1;
+    most_turns = std::max(most_turns, turns);
+    journey.T_world_robot.yaw = 0.0;
+  }
+  EXPECT_GE(steps, 4);
+  EXPECT_LE(most_turns, 5);
+  EXPECT_GE(most_turns, 4) << "turning round once is no fault";
 }
 
 TEST(BeliefPolicy, DrivesToTheGoalAndSaysSo) {
