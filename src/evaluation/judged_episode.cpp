@@ -171,7 +171,7 @@ EpisodeRow run_judged_episode(const Scene& scene, const Task& task, const Drawin
     simulation.robot.turn_noise = simulation.robot.turn_bias = 0.0;
     // Nothing is left for walls, blurred ones, to say about it.
     params.localization.scaled.compass.enabled = false;
-    params.perception.rolling.align_deg = 0.0;
+    params.perception.rolling.align.enabled = false;
   }
   if (task.observation == ObservationKind::kForward) {
     simulation.lidar.field_of_view_deg = 180.0;

@@ -8,26 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <utility>
 
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace cmn {
 namespace {
 
 constexpr float kForgotten = 0.05F;
-
-// Alignment: what is searched, and what odometry's word is worth there, in shares of the points.
-constexpr double kTurn_deg = 0.5;
-constexpr double kShift = 0.5;  ///< [cells]
-constexpr int kShifts = 2;      ///< either way
-constexpr double kPriceOfTurn = 0.01;
-constexpr double kPriceOfShift = 0.2;
-constexpr double kMostKnown = 0.5;  ///< of surfaces()
-constexpr double kRounding = 1e-9;
-constexpr std::size_t kMostPoints = 400;
-constexpr std::size_t kLeastPoints = 20;
+constexpr double kAnchorWay_m = 0.6;  ///< see Anchor
 
 int wrapped(int value, int size) { return ((value % size) + size) % size; }
 
@@ -70,17 +61,6 @@ Range within(double start, double step, int size) {
           whole_below(std::min(std::max(a, b), 1.0 * kFar)) + 1};
 }
 
-/// At most kMostPoints, evenly thinned.
-std::vector<Point2> thinned(std::vector<Point2> points) {
-  const std::size_t every = points.size() / kMostPoints + 1;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); i += every) {
-    points[kept++] = points[i];
-  }
-  points.resize(kept);
-  return points;
-}
-
 }  // namespace
 
 void RollingMap::forget() {
@@ -88,115 +68,70 @@ void RollingMap::forget() {
   confidence_ = {};
 }
 
+std::optional<double> RollingMap::heading_drift_rad() const {
+  return params_.align.enabled ? std::optional<double>{-T_map_odom_.yaw} : std::nullopt;
+}
+
 Cell RollingMap::place_of(Cell c) const {
   const int size = confidence_.width();
   return {wrapped(c.x, size), wrapped(c.y, size)};
 }
 
-cv::Mat RollingMap::surfaces() const {
-  const int size = confidence_.width();
-  cv::Mat image(size, size, CV_32F);
+cv::Mat1b RollingMap::anchored_surface() const {
+  const int size = anchor_.width();
+  cv::Mat1b free(size, size);
+  cv::Mat1b standing(size, size);
   const Cell corner = middle_ - Cell{size / 2, size / 2};
   for (int y = 0; y < size; ++y) {
     const Cell first = place_of(corner + Cell{0, y});
-    const float* occupancy = &occupancy_({0, first.y});
-    const float* confidence = &confidence_({0, first.y});
-    const auto copy = [&](int from, int to, float* out) {
-      for (int x = from; x < to; ++x) {
-        const float above = occupancy[x] - 0.5F;  // read in any case: no branch
-        out[x - from] = confidence[x] > 0.0F ? above : 0.0F;
-      }
-    };
-    copy(first.x, size, image.ptr<float>(y));
-    copy(0, first.x, image.ptr<float>(y) + (size - first.x));
+    const Anchor* const row = &anchor_({0, first.y});
+    for (int x = 0; x < size; ++x) {
+      const Anchor here = row[first.x + x < size ? first.x + x : first.x + x - size];
+      free(y, x) = static_cast<std::uint8_t>(here == Anchor::kFree);
+      standing(y, x) = static_cast<std::uint8_t>(here == Anchor::kStanding);
+    }
   }
-  return image;
+  cv::Mat1b beside_free;
+  cv::dilate(free, beside_free, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
+  return standing.mul(beside_free);
 }
 
-Pose2 RollingMap::aligned(const LocalOccupancy& look, const Pose2& T_map_robot) const {
-  const std::vector<Point2> surface = thinned(surface_of(look));
-  if (surface.size() < kLeastPoints) {
-    return T_map_robot;
+void RollingMap::anchor(double driven_m) {
+  since_anchor_m_ += driven_m;
+  const bool is_due = since_anchor_m_ >= kAnchorWay_m;
+  since_anchor_m_ = is_due ? 0.0 : since_anchor_m_;
+  for (std::size_t i = 0; i < anchor_.size(); ++i) {
+    const bool is_known = confidence_[i] > 0.0F;
+    const Anchor now = !is_known              ? Anchor::kNone
+                       : occupancy_[i] > 0.5F ? Anchor::kStanding
+                                              : Anchor::kFree;
+    anchor_[i] = is_due || !is_known || anchor_[i] == Anchor::kNone ? now : anchor_[i];
   }
-  const cv::Mat known = surfaces();
-  const Point2 corner = middle_of(middle_ - Cell{known.cols / 2, known.rows / 2});
-  // Mean of what is known where the surface would lie, between the middles of cells; less than
-  // `least`, and whatever, once it cannot be as much any more.
-  const auto fit = [&](const Pose2& pose, double least) {
-    const Transform to_map{pose};
-    const auto points = static_cast<double>(surface.size());
-    double sum = 0.0;
-    double most = kMostKnown * points;
-    for (const Point2 p_robot : surface) {
-      if (most < least * points) {
-        return -kMostKnown;
-      }
-      const double before = sum;
-      const Point2 p = (1.0 / resolution_) * to_map(p_robot) - corner;
-      const int x = whole_below(p.x);
-      const int y = whole_below(p.y);
-      if (x >= 0 && y >= 0 && x + 1 < known.cols && y + 1 < known.rows) {
-        const double u = p.x - x;
-        const double v = p.y - y;
-        const float* low = known.ptr<float>(y) + x;
-        const float* high = known.ptr<float>(y + 1) + x;
-        sum += (1.0 - v) *
-                   ((1.0 - u) * static_cast<double>(low[0]) + u * static_cast<double>(low[1])) +
-               v * ((1.0 - u) * static_cast<double>(high[0]) + u * static_cast<double>(high[1]));
-      }
-      most -= kMostKnown - (sum - before);
-    }
-    return sum / points;
-  };
-  Pose2 best = T_map_robot;
-  double best_fit = fit(best, -kMostKnown);
-  const auto consider = [&](const Pose2& pose) {
-    const double turn_deg = std::abs(wrap_angle(pose.yaw - T_map_robot.yaw)) * 180.0 / kPi;
-    const double shift = norm(pose.position() - T_map_robot.position()) / resolution_;
-    const double price = kPriceOfTurn * turn_deg / params_.align_deg + kPriceOfShift * shift;
-    const double value = fit(pose, best_fit + price - kRounding) - price;
-    if (value > best_fit) {
-      best_fit = value;
-      best = pose;
-    }
-  };
-  // The turn, which moves most, then the place; then both once more and finer.
-  for (const double share : {1.0, 0.5}) {
-    const double step_rad = share * kTurn_deg * kPi / 180.0;
-    const int turns = share < 1.0 ? 3 : static_cast<int>(params_.align_deg / kTurn_deg);
-    const Pose2 before = best;
-    for (int i = -turns; i <= turns; ++i) {
-      consider({before.x, before.y, before.yaw + i * step_rad});
-    }
-    const Pose2 at = best;
-    const double step_m = share * kShift * resolution_;
-    for (int i = -kShifts; i <= kShifts; ++i) {
-      for (int j = -kShifts; j <= kShifts; ++j) {
-        consider({at.x + i * step_m, at.y + j * step_m, at.yaw});
-      }
-    }
-  }
-  return best;
 }
 
 void RollingMap::scroll_to(Cell middle) {
   const int size = confidence_.width();
   const int half = size / 2;
   const Cell by = middle - middle_;
+  const auto clear = [this](Cell c) {
+    confidence_(c) = 0.0F;
+    anchor_(c) = Anchor::kNone;
+  };
   if (std::abs(by.x) >= size || std::abs(by.y) >= size) {
     std::fill(confidence_.values().begin(), confidence_.values().end(), 0.0F);
+    std::fill(anchor_.values().begin(), anchor_.values().end(), Anchor::kNone);
   } else {
     // Columns, then rows that come into the window.
     for (int i = 0; i < std::abs(by.x); ++i) {
       const int x = by.x > 0 ? middle_.x + size - half + i : middle_.x - half - 1 - i;
       for (int y = 0; y < size; ++y) {
-        confidence_({wrapped(x, size), y}) = 0.0F;
+        clear({wrapped(x, size), y});
       }
     }
     for (int i = 0; i < std::abs(by.y); ++i) {
       const int y = by.y > 0 ? middle_.y + size - half + i : middle_.y - half - 1 - i;
       for (int x = 0; x < size; ++x) {
-        confidence_({x, wrapped(y, size)}) = 0.0F;
+        clear({x, wrapped(y, size)});
       }
     }
   }
@@ -282,23 +217,30 @@ LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) 
   if (is_first) {
     occupancy_ = {window, window};
     confidence_ = {window, window};
+    anchor_ = {window, window};
     resolution_ = look.resolution;
-    T_map_odom_ = {};
   }
   Pose2 T_map_robot = T_map_odom_ * T_odom_robot;
-  if (!is_first && params_.align_deg > 0.0) {
-    T_map_robot = aligned(look, T_map_robot);
+  if (!is_first && params_.align.enabled) {
+    const int half = window / 2;
+    T_map_robot =
+        align_look(surface_of(look), anchored_surface(), middle_of(middle_ - Cell{half, half}),
+                   resolution_, T_map_robot, T_map_odom_ * T_odom_last_, params_.align);
     T_map_odom_ = T_map_robot * inverse(T_odom_robot);
   }
+  const double driven_m = is_first ? 0.0 : norm(T_odom_robot.position() - T_odom_last_.position());
   const Cell here = cell_at(T_map_robot.position(), resolution_);
   if (is_first) {
     middle_ = here;
   } else {
     scroll_to(here);
-    age(norm(T_odom_robot.position() - T_odom_last_.position()));
+    age(driven_m);
   }
   T_odom_last_ = T_odom_robot;
   fold_in(look, T_map_robot);
+  if (params_.align.enabled) {
+    anchor(driven_m);
+  }
   last_ = all_known(std::move(look), T_map_robot);
   return last_;
 }

@@ -131,6 +131,8 @@ coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std
   message.occupancy = local.occupancy;
   message.confidence = local.confidence;
   message.source = static_cast<std::uint8_t>(local.source);
+  message.aligned = static_cast<std::uint8_t>(local.heading_drift_rad.has_value());
+  message.heading_drift = static_cast<float>(local.heading_drift_rad.value_or(0.0));
   return message;
 }
 
@@ -176,6 +178,10 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
       return std::nullopt;
     }
   }
+  if (msg.aligned != 0 && !std::isfinite(msg.heading_drift)) {
+    why = "its heading_drift is no angle";
+    return std::nullopt;
+  }
   LocalOccupancy local;
   local.stamp_s = msg.header.stamp.toSec();
   local.resolution = widened(msg.resolution);
@@ -183,6 +189,9 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
   local.occupancy = msg.occupancy;
   local.confidence = msg.confidence;
   local.source = static_cast<ObservationSource>(msg.source);
+  if (msg.aligned != 0) {
+    local.heading_drift_rad = static_cast<double>(msg.heading_drift);
+  }
   return local;
 }
 

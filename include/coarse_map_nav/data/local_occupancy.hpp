@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cmn {
@@ -31,6 +32,9 @@ struct LocalOccupancy {
   std::vector<float> occupancy;
   std::vector<float> confidence;
   ObservationSource source = ObservationSource::kUnknown;
+  /// By how much odometry's heading has drifted to the left since some beginning, as the looks
+  /// tell that were aligned with each other [rad]; none where they are not.
+  std::optional<double> heading_drift_rad;
 
   LocalOccupancy() = default;
   /// Nothing known anywhere: occupancy 0.5, confidence 0.

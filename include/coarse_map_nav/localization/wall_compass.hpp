@@ -20,6 +20,7 @@ struct WallCompassParams {
   double drift_per_turn_deg = 1.0;
   double drift_per_m_deg = 0.3;
   double drift_per_look_deg = 0.0;
+  double drift_aligned_deg = 0.3;
   double least_peak = 1.2;
   double bin_m = 0.1;
   template <class Self, class Visitor>
@@ -40,6 +41,9 @@ struct WallCompassParams {
     visit("drift_per_look_deg", self.drift_per_look_deg, Between{0.0, 45.0},
           "[deg] and from look to look in turns that end where they began and are not told of, as "
           "the four of a panorama");
+    visit("drift_aligned_deg", self.drift_aligned_deg, Between{0.0, 45.0},
+          "[deg] in place of these three from look to look where perception aligns them and tells "
+          "what odometry has drifted, one sigma");
     visit("least_peak", self.least_peak, Between{1.01, 10.0},
           "[-] how much sharper than on average walls must show up in a direction to count");
     visit("bin_m", self.bin_m, Between{0.02, 1.0},
@@ -51,7 +55,8 @@ struct WallCompassParams {
 /// at right angles, counting what is seen in strips along and across a direction gives the sharpest
 /// counts along the walls (ours).
 ///
-/// Follows that direction from look to look by a Kalman filter with a gate, starting from the
+/// Follows that direction from look to look by a Kalman filter with a gate, by what odometry has
+/// drifted in between where perception knows that (LocalOccupancy), starting from the
 /// odometry's own axes (Robb: the robot is set down along the walls), so it never takes a jump of a
 /// quarter turn, nor a piece of furniture that stands askew for a wall. In round halls and outside
 /// no direction is sharp enough, and the odometry is followed as it is.
@@ -73,6 +78,7 @@ class WallCompass {
   double axes_yaw_rad_ = 0.0;
   double sigma_deg_;  ///< of axes_yaw_rad_
   std::optional<Pose2> T_odom_last_;
+  std::optional<double> drift_last_rad_;  ///< that perception told of
   std::vector<int> counts_;
 };
 

@@ -8,6 +8,7 @@
 #include "coarse_map_nav/data/local_occupancy.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace cmn {
@@ -22,6 +23,8 @@ class Accumulator {
   /// False while the last look is only part of what the robot could see from where it stands: it
   /// should turn to the left and look again before anything is concluded.
   virtual bool is_complete() const { return true; }
+  /// See LocalOccupancy; of the last look.
+  virtual std::optional<double> heading_drift_rad() const { return std::nullopt; }
 };
 
 struct PerceptionParams;

@@ -119,6 +119,20 @@ TEST(WallCompass, FindsAnyAxesOnceItIsLost) {
   }
 }
 
+TEST(WallCompass, FollowsTheDriftThatPerceptionTellsOf) {
+  // In a round hall nothing else tells, and in a room it does not contradict.
+  for (const auto& depth : {depth_of_room, depth_of_round_hall}) {
+    WallCompass compass{WallCompassParams{}};
+    for (int i = 0; i < 100; ++i) {
+      const double drift_rad = 2.0 + 2.0 * kDegree * i;  // since whenever
+      LocalOccupancy seen = view(depth, 2.0 * kDegree * i);
+      seen.heading_drift_rad = wrap_angle(drift_rad);
+      compass.look(seen, {0.15 * i, 0.0, 0.0});
+      ASSERT_NEAR(compass.axes_yaw_rad() / kDegree, 2.0 * i, 1.0) << i;
+    }
+  }
+}
+
 TEST(WallCompass, FindsNoAxesInARoundHall) {
   WallCompass compass{WallCompassParams{}};
   EXPECT_EQ(axes_after(compass, depth_of_round_hall, 5.0 * kDegree, 25), 0.0);

@@ -149,6 +149,23 @@ TEST(Perception, ThePlannerMayRememberWhatThePanoramaOfTheNextStopLacks) {
   }
 }
 
+TEST(Perception, TellsOfTheDriftOfTheHeadingWhereItAlignsLooks) {
+  PerceptionParams params = params_of("depth", "panorama");
+  const DepthImage image = depth_of(kTable);
+  const auto drift_of = [&](bool with_local_map) {
+    return Perception{params}.look({nullptr, &image}, {}, with_local_map).seen.heading_drift_rad;
+  };
+  EXPECT_FALSE(drift_of(true)) << "a panorama alone is laid as odometry says";
+  params.accumulate_local_map = "rolling";
+  EXPECT_TRUE(drift_of(true));
+  EXPECT_FALSE(drift_of(false));
+  params.rolling.align.enabled = false;
+  EXPECT_FALSE(drift_of(true));
+  params.rolling.align.enabled = true;
+  params.accumulate = "rolling";
+  EXPECT_TRUE(drift_of(false));
+}
+
 TEST(Perception, AnUnknownAccumulatorIsRefused) {
   EXPECT_THROW(Perception{params_of("lidar", "hoarding")}, std::invalid_argument);
 }

@@ -146,10 +146,11 @@ LocalOccupancy look_at_room(const Pose2& T_room_robot) {
 
 /// How much of what is known to be occupied lies farther than 0.2 m from the room's walls after a
 /// look to either side and many turns on the spot, of which odometry misses some degrees each.
-double share_of_ghosts(double align_deg) {
+double share_of_ghosts(bool is_aligned) {
   RollingMapParams params = lasting();
   params.most_looks = 1.0;
-  params.align_deg = align_deg;
+  params.align.enabled = is_aligned;
+  params.align.drift_per_turn_deg = 3.0;
   RollingMap map{params};
   Pose2 T_room_robot{2.2, 1.7, 0.0};
   Pose2 T_odom_robot{-7.0, 3.0, 1.0};
@@ -176,8 +177,40 @@ double share_of_ghosts(double align_deg) {
 }
 
 TEST(RollingMap, ItsWallsStayWhereTheyAreAlthoughOdometryTurnsAway) {
-  EXPECT_GT(share_of_ghosts(0.0), 0.05) << "as odometry says";
-  EXPECT_EQ(share_of_ghosts(RollingMapParams{}.align_deg), 0.0);
+  EXPECT_GT(share_of_ghosts(false), 0.05) << "as odometry says";
+  EXPECT_EQ(share_of_ghosts(true), 0.0);
+}
+
+TEST(RollingMap, KnowsByHowMuchTheHeadingHasDrifted) {
+  RollingMap map{lasting()};
+  Pose2 T_room_robot{2.2, 1.7, 0.3};
+  Pose2 T_odom_robot{4.0, -2.0, 0.3};
+  map.fuse(look_at_room(T_room_robot), T_odom_robot);
+  EXPECT_EQ(map.heading_drift_rad(), 0.0);
+  for (int i = 0; i < 12; ++i) {  // a turn by which odometry gains a degree, and a step
+    T_room_robot = T_room_robot * Pose2{0.05, 0.0, 0.5};
+    T_odom_robot = T_odom_robot * Pose2{0.05, 0.0, 0.5 + kPi / 180.0};
+    map.fuse(look_at_room(T_room_robot), T_odom_robot);
+    ASSERT_NEAR(*map.heading_drift_rad(), (i + 1) * kPi / 180.0, 3.0 * kPi / 180.0) << i;
+  }
+  // What it has told of goes on when all else is forgotten.
+  const double before = *map.heading_drift_rad();
+  map.forget();
+  map.fuse(look_at_room(T_room_robot), T_odom_robot);
+  EXPECT_EQ(map.heading_drift_rad(), before);
+}
+
+TEST(RollingMap, DoesNotCreepRoundWithARobotThatTurnsToAndFro) {
+  RollingMap map{lasting()};
+  Pose2 T_room_robot{2.2, 1.7, 0.0};
+  Pose2 T_odom_robot = T_room_robot;
+  for (int i = 0; i < 400; ++i) {
+    map.fuse(look_at_room(T_room_robot), T_odom_robot);
+    const double turn = i % 2 == 0 ? kPi / 2.0 : -kPi / 2.0;
+    T_room_robot.yaw += turn;
+    T_odom_robot.yaw += turn + 0.1 * kPi / 180.0;  // far less than what shows in a cell
+  }
+  EXPECT_NEAR(*map.heading_drift_rad() * 180.0 / kPi, 40.0, 4.0);
 }
 
 TEST(RollingMap, ForgetsWhenItIsCarriedElsewhere) {
