@@ -100,8 +100,8 @@ TEST(RunPicture, ShrinksWordsThatWouldRunOffThePage) {
   const std::string long_words(300, 'M');
   const auto margin_of = [](const cv::Mat& picture) {
     cv::Mat dark;
-    cv::inRange(picture(cv::Rect{0, 0, picture.cols, 55}), cv::Scalar::all(0),
-                cv::Scalar::all(120), dark);
+    cv::inRange(picture(cv::Rect{0, 0, picture.cols, 55}), cv::Scalar::all(0), cv::Scalar::all(120),
+                dark);
     return picture.cols - (cv::boundingRect(dark).x + cv::boundingRect(dark).width);
   };
   EXPECT_GT(margin_of(run_picture(setting, journey(setting.map, 30), long_words, long_words)), 15);
