@@ -150,7 +150,6 @@ double share_of_ghosts(bool is_aligned) {
   RollingMapParams params = lasting();
   params.most_looks = 1.0;
   params.align.enabled = is_aligned;
-  params.align.drift_per_turn_deg = 3.0;
   RollingMap map{params};
   Pose2 T_room_robot{2.2, 1.7, 0.0};
   Pose2 T_odom_robot{-7.0, 3.0, 1.0};
