@@ -35,6 +35,7 @@ bool UpdateGate::time_jumped_back(double stamp_s) {
   const bool jumped = last_stamp_s_ && stamp_s < *last_stamp_s_ - 1.0;
   if (jumped) {
     ended_.reset();
+    folded_in_.stamp_s = kNever_s;  // a bag that is played again ends its actions at the same times
   }
   if (jumped || !last_stamp_s_ || stamp_s > *last_stamp_s_) {
     last_stamp_s_ = stamp_s;

@@ -42,8 +42,8 @@ void WallCompass::look(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
   if (!params_.enabled) {
     return;
   }
-  if (seen.heading_drift_rad && drift_last_rad_) {
-    axes_yaw_rad_ += wrap_angle(*seen.heading_drift_rad - *drift_last_rad_);
+  if (seen.heading_drift && drift_last_ && seen.heading_drift->since_s == drift_last_->since_s) {
+    axes_yaw_rad_ += wrap_angle(seen.heading_drift->rad - drift_last_->rad);
     sigma_deg_ = std::hypot(sigma_deg_, params_.drift_aligned_deg);
   } else if (T_odom_last_) {
     const double turned_rad = std::abs(wrap_angle(T_odom_robot.yaw - T_odom_last_->yaw));
@@ -53,7 +53,7 @@ void WallCompass::look(const LocalOccupancy& seen, const Pose2& T_odom_robot) {
         squared(params_.drift_per_m_deg) * driven_m + squared(params_.drift_per_look_deg));
   }
   T_odom_last_ = T_odom_robot;
-  drift_last_rad_ = seen.heading_drift_rad;
+  drift_last_ = seen.heading_drift;
   const std::vector<Point2> hits = surface_of(seen);
   if (hits.size() < kFewestHits) {
     return;

@@ -133,9 +133,9 @@ Percept Perception::look(const SensorData& data, const Pose2& T_odom_robot, bool
     percept.local_map = local_map_.accumulator->fuse(
         seen_with(local_map_, local_map_.projector.project(guard)), T_odom_robot);
   }
-  percept.seen.heading_drift_rad = seen_.accumulator->heading_drift_rad();
-  if (with_local_map && !percept.seen.heading_drift_rad) {
-    percept.seen.heading_drift_rad = local_map_.accumulator->heading_drift_rad();
+  percept.seen.heading_drift = seen_.accumulator->heading_drift();
+  if (with_local_map && !percept.seen.heading_drift) {
+    percept.seen.heading_drift = local_map_.accumulator->heading_drift();
   }
   return percept;
 }

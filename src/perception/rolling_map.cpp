@@ -68,8 +68,10 @@ void RollingMap::forget() {
   confidence_ = {};
 }
 
-std::optional<double> RollingMap::heading_drift_rad() const {
-  return params_.align.enabled ? std::optional<double>{-T_map_odom_.yaw} : std::nullopt;
+std::optional<HeadingDrift> RollingMap::heading_drift() const {
+  return params_.align.enabled && first_stamp_s_
+             ? std::optional<HeadingDrift>{{-T_map_odom_.yaw, *first_stamp_s_}}
+             : std::nullopt;
 }
 
 Cell RollingMap::place_of(Cell c) const {
@@ -209,6 +211,7 @@ LocalOccupancy RollingMap::all_known(LocalOccupancy look, const Pose2& T_map_rob
 }
 
 LocalOccupancy RollingMap::fuse(LocalOccupancy look, const Pose2& T_odom_robot) {
+  first_stamp_s_ = first_stamp_s_.value_or(look.stamp_s);
   // The square of the look fits into the window however it is turned.
   const int window = static_cast<int>(std::ceil(std::sqrt(2.0) * look.size)) + 2;
   const bool is_first =

@@ -131,8 +131,10 @@ coarse_map_nav::LocalOccupancy message_of(const LocalOccupancy& local, const std
   message.occupancy = local.occupancy;
   message.confidence = local.confidence;
   message.source = static_cast<std::uint8_t>(local.source);
-  message.aligned = static_cast<std::uint8_t>(local.heading_drift_rad.has_value());
-  message.heading_drift = static_cast<float>(local.heading_drift_rad.value_or(0.0));
+  if (local.heading_drift) {
+    message.aligned_since.fromSec(local.heading_drift->since_s);
+    message.heading_drift = static_cast<float>(local.heading_drift->rad);
+  }
   return message;
 }
 
@@ -178,7 +180,7 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
       return std::nullopt;
     }
   }
-  if (msg.aligned != 0 && !std::isfinite(msg.heading_drift)) {
+  if (!std::isfinite(msg.heading_drift)) {
     why = "its heading_drift is no angle";
     return std::nullopt;
   }
@@ -189,8 +191,9 @@ std::optional<LocalOccupancy> local_occupancy_of(const coarse_map_nav::LocalOccu
   local.occupancy = msg.occupancy;
   local.confidence = msg.confidence;
   local.source = static_cast<ObservationSource>(msg.source);
-  if (msg.aligned != 0) {
-    local.heading_drift_rad = static_cast<double>(msg.heading_drift);
+  if (!msg.aligned_since.isZero()) {
+    local.heading_drift =
+        HeadingDrift{static_cast<double>(msg.heading_drift), msg.aligned_since.toSec()};
   }
   return local;
 }

@@ -20,6 +20,13 @@ enum class ObservationSource : std::uint8_t { kUnknown = 0, kLidar, kDepth, kRgb
 /// be in its view. It never outweighs what was seen.
 constexpr float kPresumed = 0.1F;
 
+/// By how much odometry's heading has drifted to the left, as looks tell that were aligned with
+/// each other.
+struct HeadingDrift {
+  double rad = 0.0;
+  double since_s = 0.0;  ///< time of the first of them; drifts of two beginnings do not compare
+};
+
 /// A square grid of occupancy about the robot, axes as base_link: x forward, y left.
 ///
 /// Cell (ix, iy) covers x in [(ix - size/2) r, (ix + 1 - size/2) r) and y likewise: the robot
@@ -32,9 +39,7 @@ struct LocalOccupancy {
   std::vector<float> occupancy;
   std::vector<float> confidence;
   ObservationSource source = ObservationSource::kUnknown;
-  /// By how much odometry's heading has drifted to the left since some beginning, as the looks
-  /// tell that were aligned with each other [rad]; none where they are not.
-  std::optional<double> heading_drift_rad;
+  std::optional<HeadingDrift> heading_drift;  ///< none where looks are not aligned
 
   LocalOccupancy() = default;
   /// Nothing known anywhere: occupancy 0.5, confidence 0.

@@ -57,7 +57,8 @@ class UpdateGate {
   std::optional<Pose2> T_odom_last_;
   std::optional<double> last_stamp_s_;
   std::optional<Ended> ended_;
-  Ended folded_in_{0, -1.0};
+  static constexpr double kNever_s = -1.0;
+  Ended folded_in_{0, kNever_s};
 };
 
 }  // namespace cmn

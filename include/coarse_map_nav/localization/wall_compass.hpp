@@ -56,7 +56,7 @@ struct WallCompassParams {
 /// counts along the walls (ours).
 ///
 /// Follows that direction from look to look by a Kalman filter with a gate, by what odometry has
-/// drifted in between where perception knows that (LocalOccupancy), starting from the
+/// drifted in between where perception knows that (HeadingDrift), starting from the
 /// odometry's own axes (Robb: the robot is set down along the walls), so it never takes a jump of a
 /// quarter turn, nor a piece of furniture that stands askew for a wall. In round halls and outside
 /// no direction is sharp enough, and the odometry is followed as it is.
@@ -78,7 +78,7 @@ class WallCompass {
   double axes_yaw_rad_ = 0.0;
   double sigma_deg_;  ///< of axes_yaw_rad_
   std::optional<Pose2> T_odom_last_;
-  std::optional<double> drift_last_rad_;  ///< that perception told of
+  std::optional<HeadingDrift> drift_last_;  ///< that perception told of
   std::vector<int> counts_;
 };
 

@@ -23,8 +23,8 @@ class Accumulator {
   /// False while the last look is only part of what the robot could see from where it stands: it
   /// should turn to the left and look again before anything is concluded.
   virtual bool is_complete() const { return true; }
-  /// See LocalOccupancy; of the last look.
-  virtual std::optional<double> heading_drift_rad() const { return std::nullopt; }
+  /// At the last look.
+  virtual std::optional<HeadingDrift> heading_drift() const { return std::nullopt; }
 };
 
 struct PerceptionParams;

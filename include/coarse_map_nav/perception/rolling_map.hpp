@@ -52,7 +52,7 @@ class RollingMap : public Accumulator {
 
   LocalOccupancy fuse(LocalOccupancy look, const Pose2& T_odom_robot) override;
   void forget() override;
-  std::optional<double> heading_drift_rad() const override;
+  std::optional<HeadingDrift> heading_drift() const override;
 
  private:
   /// Where a cell of the map's frame is kept: the window is wrapped round.
@@ -79,7 +79,8 @@ class RollingMap : public Accumulator {
   double since_anchor_m_ = 0.0;
   double resolution_ = 0.0;
   Pose2 T_map_odom_;  ///< of the looks as they were aligned; kept when all else is forgotten
-  Cell middle_;       ///< cell of the map's frame that the window is about
+  std::optional<double> first_stamp_s_;
+  Cell middle_;  ///< cell of the map's frame that the window is about
   Pose2 T_odom_last_;
   LocalOccupancy last_;  ///< what was known then
 };

@@ -66,5 +66,16 @@ TEST(UpdateGate, NoticesTimeThatWentBackAndForgetsTheActionThatEndedLater) {
   EXPECT_FALSE(gate.time_jumped_back(1.1));
 }
 
+TEST(UpdateGate, ABagThatIsPlayedAgainEndsItsActionsAgain) {
+  UpdateGate gate{{}};
+  for (int play = 0; play < 2; ++play) {
+    gate.time_jumped_back(1.0);
+    gate.is_due(1.0, kHere);
+    EXPECT_TRUE(gate.action_ended(3, 2.0));
+    gate.time_jumped_back(2.1);
+    EXPECT_TRUE(gate.is_due(2.1, kHere));
+  }
+}
+
 }  // namespace
 }  // namespace cmn

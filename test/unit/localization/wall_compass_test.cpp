@@ -126,10 +126,15 @@ TEST(WallCompass, FollowsTheDriftThatPerceptionTellsOf) {
     for (int i = 0; i < 100; ++i) {
       const double drift_rad = 2.0 + 2.0 * kDegree * i;  // since whenever
       LocalOccupancy seen = view(depth, 2.0 * kDegree * i);
-      seen.heading_drift_rad = wrap_angle(drift_rad);
+      seen.heading_drift = HeadingDrift{wrap_angle(drift_rad), 7.0};
       compass.look(seen, {0.15 * i, 0.0, 0.0});
       ASSERT_NEAR(compass.axes_yaw_rad() / kDegree, 2.0 * i, 1.0) << i;
     }
+    // Perception was started anew, and tells of the drift since then.
+    LocalOccupancy seen = view(depth, 198.0 * kDegree);
+    seen.heading_drift = HeadingDrift{0.0, 107.0};
+    compass.look(seen, {15.0, 0.0, 0.0});
+    EXPECT_NEAR(compass.axes_yaw_rad() / kDegree, 198.0, 1.0);
   }
 }
 

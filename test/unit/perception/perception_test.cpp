@@ -153,7 +153,9 @@ TEST(Perception, TellsOfTheDriftOfTheHeadingWhereItAlignsLooks) {
   PerceptionParams params = params_of("depth", "panorama");
   const DepthImage image = depth_of(kTable);
   const auto drift_of = [&](bool with_local_map) {
-    return Perception{params}.look({nullptr, &image}, {}, with_local_map).seen.heading_drift_rad;
+    return Perception{params}
+        .look({nullptr, &image}, {}, with_local_map)
+        .seen.heading_drift.has_value();
   };
   EXPECT_FALSE(drift_of(true)) << "a panorama alone is laid as odometry says";
   params.accumulate_local_map = "rolling";

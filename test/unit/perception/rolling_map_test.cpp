@@ -182,21 +182,22 @@ TEST(RollingMap, ItsWallsStayWhereTheyAreAlthoughOdometryTurnsAway) {
 
 TEST(RollingMap, KnowsByHowMuchTheHeadingHasDrifted) {
   RollingMap map{lasting()};
+  EXPECT_FALSE(map.heading_drift()) << "nothing was seen yet";
   Pose2 T_room_robot{2.2, 1.7, 0.3};
   Pose2 T_odom_robot{4.0, -2.0, 0.3};
   map.fuse(look_at_room(T_room_robot), T_odom_robot);
-  EXPECT_EQ(map.heading_drift_rad(), 0.0);
+  EXPECT_EQ(map.heading_drift()->rad, 0.0);
   for (int i = 0; i < 12; ++i) {  // a turn by which odometry gains a degree, and a step
     T_room_robot = T_room_robot * Pose2{0.05, 0.0, 0.5};
     T_odom_robot = T_odom_robot * Pose2{0.05, 0.0, 0.5 + kPi / 180.0};
     map.fuse(look_at_room(T_room_robot), T_odom_robot);
-    ASSERT_NEAR(*map.heading_drift_rad(), (i + 1) * kPi / 180.0, 3.0 * kPi / 180.0) << i;
+    ASSERT_NEAR(map.heading_drift()->rad, (i + 1) * kPi / 180.0, 3.0 * kPi / 180.0) << i;
   }
   // What it has told of goes on when all else is forgotten.
-  const double before = *map.heading_drift_rad();
+  const double before = map.heading_drift()->rad;
   map.forget();
   map.fuse(look_at_room(T_room_robot), T_odom_robot);
-  EXPECT_EQ(map.heading_drift_rad(), before);
+  EXPECT_EQ(map.heading_drift()->rad, before);
 }
 
 TEST(RollingMap, DoesNotCreepRoundWithARobotThatTurnsToAndFro) {
@@ -209,7 +210,7 @@ TEST(RollingMap, DoesNotCreepRoundWithARobotThatTurnsToAndFro) {
     T_room_robot.yaw += turn;
     T_odom_robot.yaw += turn + 0.1 * kPi / 180.0;  // far less than what shows in a cell
   }
-  EXPECT_NEAR(*map.heading_drift_rad() * 180.0 / kPi, 40.0, 4.0);
+  EXPECT_NEAR(map.heading_drift()->rad * 180.0 / kPi, 40.0, 4.0);
 }
 
 TEST(RollingMap, ForgetsWhenItIsCarriedElsewhere) {

@@ -156,10 +156,13 @@ TEST(LocalOccupancyConversion, RoundTripKeepsEverything) {
   EXPECT_EQ(back->occupancy, some_occupancy().occupancy);
   EXPECT_EQ(back->confidence, some_occupancy().confidence);
   EXPECT_EQ(back->source, ObservationSource::kLidar);
-  EXPECT_FALSE(back->heading_drift_rad);
+  EXPECT_FALSE(back->heading_drift);
   LocalOccupancy aligned = some_occupancy();
-  aligned.heading_drift_rad = -0.25;
-  EXPECT_EQ(local_occupancy_of(message_of(aligned, {}), why)->heading_drift_rad, -0.25);
+  aligned.heading_drift = HeadingDrift{-0.25, 3.5};
+  const auto drift = local_occupancy_of(message_of(aligned, {}), why)->heading_drift;
+  ASSERT_TRUE(drift);
+  EXPECT_EQ(drift->rad, -0.25);
+  EXPECT_EQ(drift->since_s, 3.5);
 }
 
 TEST(LocalOccupancyConversion, APictureShowsTheMiddleSixMetres) {
@@ -191,7 +194,7 @@ TEST(LocalOccupancyConversion, MalformedOnesAreRefusedWithAReason) {
       {"confidence NaN", [](Local& m) { m.confidence[3] = kNanF; }},
       {"confidence < 0", [](Local& m) { m.confidence[3] = -1.0F; }},
       {"confidence inf", [](Local& m) { m.confidence[3] = kInfF; }},
-      {"heading drift NaN", [](Local& m) { m.aligned = 1, m.heading_drift = kNanF; }},
+      {"heading drift NaN", [](Local& m) { m.heading_drift = kNanF; }},
   };
   for (const auto& fault : faults) {
     SCOPED_TRACE(fault.name);
